@@ -18,11 +18,18 @@ from earthspin.engine.variables import Variables, labels, measured, number, word
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation
-from earthspin.questions.observed_pole import FILE_DOC, Daily, DailyPole, GivenTable, PoleInput
+from earthspin.questions.observed_pole import (
+    COLUMNS_DOC,
+    FILE_DOC,
+    Daily,
+    DailyPole,
+    GivenTable,
+    PoleInput,
+)
 from earthspin.questions.reasons import no_iau_model
 from earthspin.sky import eop
 from earthspin.sky.eop import MJD, GivenSeries, PoleSeries
-from earthspin.units import Number, Plain
+from earthspin.units import Number, Plain, Text
 from earthspin.wobble import forecast as model
 
 if TYPE_CHECKING:
@@ -98,6 +105,7 @@ class Forecast(
         None, doc="day after which the forecast begins; the last observed day used if not given"
     )
     file: Annotated[eop.PoleTable, PoleInput()] = key("finals", doc=FILE_DOC)
+    columns: Annotated[str, Text()] | None = key(None, doc=COLUMNS_DOC)
     parameters: Literal["shipped", "fitted"] | None = key(
         None,
         doc="parameters of the fast excitation: shipped, or fitted before the origin; "
@@ -118,9 +126,9 @@ class Forecast(
 
 
 @part(unless=no_iau_model)
-def record(file: eop.PoleTable, origin: float | None) -> PoleSeries:
+def record(file: eop.PoleTable, columns: str | None, origin: float | None) -> PoleSeries:
     """Read observed polar motion up to the forecast's origin; refuse a series that is not daily."""
-    table = eop.read_polar_motion(file)
+    table = eop.read_polar_motion(file, columns=columns)
     if "bridged" in table.repairs or abs(table.step - 1) > _MIDNIGHT:
         steps = table.repairs if "bridged" in table.repairs else f"steps of {table.step:g} d"
         raise SceneError("file", table.source, f"{steps}; a forecast needs a row for each day")
@@ -319,12 +327,16 @@ class BulletinA(Daily):
 
 
 def not_in_file(
-    file: eop.PoleTable, origin: float | None, start: float | None, days: float
+    file: eop.PoleTable,
+    columns: str | None,
+    origin: float | None,
+    start: float | None,
+    days: float,
 ) -> str | None:
     """Return the reason (text) to omit Bulletin A if it lacks the requested forecast, else None."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
-    if (table := eop.read_bulletin_a(file)) is None:
+    if (table := None if columns else eop.read_bulletin_a(file)) is None:
         return "the table holds no predictions of Bulletin A"
     last = table.mjd[0] - 1 if start is None else start + MJD
     if table.mjd[-1] < last + int(days):
@@ -351,9 +363,9 @@ class ForecastOffsets(Daily):
     dY = measured("mas", "Y of the celestial pole minus that of IAU 2006/2000A")
 
 
-def offsets_until(file: eop.PoleTable, last: float | None) -> PoleSeries:
+def offsets_until(file: eop.PoleTable, columns: str | None, last: float | None) -> PoleSeries:
     """Read the observed celestial pole offsets of a table, up to a last day if one is given."""
-    table = eop.read_pole_offsets(file)
+    table = eop.read_pole_offsets(file, columns=columns)
     return table if last is None else table.between(table.mjd[0], last + MJD)
 
 
@@ -363,14 +375,19 @@ def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, F
 
 
 def no_offsets(
-    file: eop.PoleTable, origin: float | None, start: float | None, days: float
+    file: eop.PoleTable,
+    columns: str | None,
+    origin: float | None,
+    start: float | None,
+    days: float,
 ) -> str | None:
     """Return the reason (text) to omit pole offsets if they cannot be forecast, else None."""
     if isinstance(file, GivenSeries):
         return "polar motion has no celestial pole offsets; name a table"
     try:
-        table = offsets_until(file, origin)
-        newest = eop.read_polar_motion(file).mjd[-1] if origin is None else np.floor(origin + MJD)
+        table = offsets_until(file, columns, origin)
+        pole = eop.read_polar_motion(file, columns=columns)
+        newest = pole.mjd[-1] if origin is None else np.floor(origin + MJD)
     except SeriesError as error:
         return str(error)
     if "bridged" in table.repairs or np.isnan(table.x_error).any():
@@ -382,9 +399,11 @@ def no_offsets(
 
 
 @part(unless=no_offsets, loads=("scipy.signal",))
-def pole_offsets(file: eop.PoleTable, record: PoleSeries, output_days: slice) -> ForecastOffsets:
+def pole_offsets(
+    file: eop.PoleTable, columns: str | None, record: PoleSeries, output_days: slice
+) -> ForecastOffsets:
     """Forecast celestial pole offsets from offsets observed up to the origin of the forecast."""
-    table = offsets_until(file, float(record.mjd[-1]) - MJD)
+    table = offsets_until(file, columns, float(record.mjd[-1]) - MJD)
     time = _times(record, output_days)
     value, error = (pair.T for pair in predicted_offsets(table, time + MJD))
     newest = date_text(table.mjd[-1] - MJD)
@@ -462,7 +481,7 @@ def to_iers_table(answer: Answer) -> PoleTable:
     run = Run(question)
     observed: PoleSeries = run["record"]
     last = observed.mjd[-1] + run["output_days"].stop
-    offsets = offsets_until(file, float(observed.mjd[-1]) - MJD)
+    offsets = offsets_until(file, question.columns, float(observed.mjd[-1]) - MJD)
     rapid = eop.file_of(file) if offsets.name == "finals2000A" else eop.file_of("finals")
     if (reach := last_ut1(rapid)) < last:
         problem = f"{rapid.name} has UT1-UTC for {reach - observed.mjd[-1]:.0f} d after the origin"

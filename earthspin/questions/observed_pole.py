@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, in_a_sentence
-from earthspin.constants import DAY, DAYS_PER_CENTURY, MAS
+from earthspin.constants import DAY, DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.dates import Epochs, Span, datetime64, days
 from earthspin.engine import Question, Variables, key, labels, measured, number, part, setting, si
 from earthspin.errors import SceneError, Where
@@ -22,9 +22,10 @@ from earthspin.nutation import core_nutation
 from earthspin.nutation.analysis import without_line
 from earthspin.questions import reasons, time_axes
 from earthspin.sky import eop
-from earthspin.sky.columns import is_table
 from earthspin.sky.eop import GivenSeries, PoleSeries
-from earthspin.units import FileName, Plain, pack, unpack
+from earthspin.sky.pole_tables import NAMES
+from earthspin.tables import DATES, column_of, is_frame, is_table, places
+from earthspin.units import FileName, Plain, Text, pack, unpack
 from earthspin.wobble.excitation import pole_of
 
 #: Smallest and largest plausible value of the largest distance from the conventional pole, mas.
@@ -34,6 +35,11 @@ NO_ERRORS = "the table gives no errors"
 #: Description of the key `file`.
 FILE_DOC = (
     "table that astropy carries, a file of the IERS, CelesTrak or JPL, or a Dataset or pandas table"
+)
+#: Description of the key `columns`.
+COLUMNS_DOC = (
+    "names and units of all columns of a file, like 'mjd, x (mas), y (mas), ...'; by its header or "
+    "layout if not given"
 )
 #: Name of the daily table C04 of the IERS, which astropy includes.
 C04 = "c04"
@@ -63,7 +69,7 @@ class GivenTable:
             return value
         if isinstance(value, dict):
             return GivenSeries(unpack(value, where))
-        if not hasattr(value, "data_vars") and not hasattr(value, "iloc"):
+        if not hasattr(value, "data_vars") and not is_frame(value):
             raise where.error(value, f"it is {self.words}")
         table, (x, y) = _labelled(value), self.names
         rows = [*labelled_series(table, self.names, self.units)]
@@ -105,6 +111,7 @@ class OfTable(Question):
     kind: Literal["c04", "c01", "finals2000A"] | None = setting(
         None, doc="layout of the table; recognised from the file if not given"
     )
+    columns: Annotated[str, Text()] | None = setting(None, doc=COLUMNS_DOC)
 
 
 class Daily(Variables, along=("time",)):
@@ -134,7 +141,12 @@ def within(series: PoleSeries, span: Span | None) -> PoleSeries:
     SeriesError
         If fewer than two rows lie within the span.
     """
-    return series.between(*(day + eop.MJD for day in span.days)) if span else series
+    return series.between(*mjd_span(span)) if span else series
+
+
+def mjd_span(span: Span | None) -> tuple[float, float]:
+    """First and last modified Julian date of a span; infinite if none is given."""
+    return (span.days[0] + eop.MJD, span.days[1] + eop.MJD) if span else eop.ALL
 
 
 def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
@@ -169,14 +181,15 @@ def labelled_series(
     variables = [*map(str, getattr(series, "data_vars", ()))]
     for name in names:
         if name not in variables or series[name].dims != ("time",):
-            problem = f"give a Dataset with '{name}' along 'time', or a pandas table"
+            problem = f"give a Dataset with '{name}' along 'time', or a table with that column"
             raise SceneError("series", variables or type(series).__name__, problem)
         unit, kind = series[name].attrs.get("units"), series[name].dtype
         if kind.kind != "f" or series["time"].dtype.kind != "M":
             raise SceneError(name, str(kind), "give numbers along dates without a zone")
         if unit not in units:
             allowed = " or ".join(f"'{u}'" for u in units)
-            raise SceneError(f"units of {name}", unit, f"set attrs['units'] to {allowed}")
+            problem = f"set attrs['units'] to {allowed}, or name the column '{name} ({units[0]})'"
+            raise SceneError(f"units of {name}", unit, problem)
     if series.time.size < 2:
         raise SceneError("time", f"{series.time.size} days", "give two or more")
     time = days(series.time, Where("time"))
@@ -188,29 +201,65 @@ def labelled_series(
     return time, first, second
 
 
+#: Names of variables in a Dataset for those of columns.
+_VARIABLES = {"dx": "dX", "dy": "dY", "e_x": "x_error", "e_y": "y_error"}
+_VARIABLES |= {"e_dx": "dX_error", "e_dy": "dY_error"}
+_COLUMNS = NAMES | {name: (name,) for name in ("chi1", "chi2")}
+
+
 def _labelled(table: Any) -> Any:
-    """Convert a pandas table to a Dataset along `time`; return anything else unchanged.
+    """Convert a table of pandas or polars to a Dataset along `time`; return all else unchanged.
 
     Raises
     ------
     SceneError
         If it has no dates.
     """
-    if not hasattr(table, "iloc"):
+    if not is_frame(table):
         return table
-    frame = table.reset_index()
-    dates = [n for n in frame if str(n).lower() == "mjd" or frame[n].dtype.kind == "M"]
-    if not dates:
-        problem = "give dates as its index, or a column 'MJD'"
-        raise SceneError("columns", list(map(str, table.columns)), problem)
-    time = frame.pop(dates[0])
-    if time.dtype.kind != "M":
-        time = datetime64(time.to_numpy(float) - eop.MJD)
-    elif time.dt.tz is not None:
-        time = time.dt.tz_convert(None)
-    units = {"units": table.attrs.get("units")}
-    columns = {str(name): ("time", frame[name].to_numpy(), units) for name in frame}
-    return xr.Dataset(columns, {"time": time.astype("datetime64[us]")}, table.attrs)
+    frame = table.reset_index() if hasattr(table, "iloc") else table
+    names = [str(name) for name in frame.columns]
+    time = _times_of(frame, names)
+    attributes = getattr(table, "attrs", {})
+    quantities = {place: quantity for quantity, place in places(names, _COLUMNS).items()}
+    columns = {}
+    for place, name in enumerate(names):
+        column, values = column_of(name), frame[frame.columns[place]].to_numpy()
+        if place in quantities:
+            name = _VARIABLES.get(quantities[place], quantities[place])
+        if values.dtype.kind == "f":
+            units = {"units": column.unit or attributes.get("units")}
+            columns[name] = ("time", column.sign * values, units)
+    return xr.Dataset(columns, {"time": time.astype("datetime64[us]")}, attributes)
+
+
+def _times_of(frame: Any, names: list[str]) -> NDArray[np.datetime64]:
+    """Times of the rows of a table: dates of any kind, or modified Julian dates.
+
+    Raises
+    ------
+    SceneError
+        If there are none.
+    """
+    known = places(names, DATES)
+    for place, name in enumerate(frame.columns):
+        column = frame[name]
+        kind = str(column.dtype)
+        if kind.startswith("period"):
+            return np.asarray(column.dt.to_timestamp().to_numpy())
+        if kind.startswith("datetime64") and getattr(column.dt, "tz", None) is not None:
+            return np.asarray(column.dt.tz_convert(None).to_numpy())
+        values = column.to_numpy()
+        if values.dtype.kind == "M":
+            return np.asarray(values)
+        text = place == known.get("date") and values.dtype.kind in "OUT"
+        if text or hasattr(values.flat[0] if values.size else None, "calendar"):
+            return datetime64(days([*values], Where(str(name))))
+    for word, first in (("mjd", eop.MJD), ("jd", J2000_JD)):
+        if word in known:
+            return datetime64(frame[frame.columns[known[word]]].to_numpy().astype(float) - first)
+    problem = "give dates as its index, or in a column 'time', or a column 'MJD'"
+    raise SceneError("columns", names, problem)
 
 
 # --- models beside the observed pole -------------------------------------------------------------

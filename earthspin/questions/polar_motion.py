@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -73,9 +74,11 @@ class ObservedPole(tables.DailyPole):
 
 
 @part(unless=tables.no_observed_pole)
-def pole_table(file: PoleTable, kind: str | None) -> PoleSeries:
-    """Read the polar motion of a table of the IERS, for all dates of the table."""
-    return read_polar_motion(file, kind)
+def pole_table(
+    file: PoleTable, kind: str | None, columns: str | None, span: Span | None
+) -> PoleSeries:
+    """Read the polar motion of a table, for all its dates, or those of the part with the span."""
+    return read_polar_motion(file, kind, columns, tables.mjd_span(span))
 
 
 @part(unless=tables.no_observed_pole)
@@ -218,20 +221,23 @@ _PURE = Number("", "100", above=0.0)
 
 @in_range("fit_chandler")
 def fit_chandler(
-    ds: xr.Dataset | pd.DataFrame,
+    ds: xr.Dataset | pd.DataFrame | str | PathLike[str],
     *,
     method: str | None = None,
     window: Any = None,
-    excitation: xr.Dataset | None = None,
+    excitation: xr.Dataset | pd.DataFrame | None = None,
+    columns: str | None = None,
 ) -> xr.Dataset:
     """Fit period, quality factor and amplitude of the free wobble to polar motion.
 
     Parameters
     ----------
-    ds : Dataset or DataFrame
-        `x` and `y` over `time`, evenly spaced, with units ("arcsec" or "mas"). A pandas table has
-        dates as its index, or a column `MJD`, and the unit in ``attrs["units"]``. Small gaps are
-        filled as by ``polar_motion(file=ds)``, and described in the attribute ``repairs``.
+    ds : Dataset, DataFrame, str or Path
+        `x` and `y` over `time`, evenly spaced, with units ("arcsec" or "mas"). A table of pandas or
+        polars has dates as its index or in a column such as `MJD`, and the unit in
+        ``attrs["units"]`` or in the names, like ``x (mas)``. A path is that of a file that
+        `polar_motion` reads. Small gaps are filled as by ``polar_motion(file=ds)``, and described
+        in the attribute ``repairs``.
     method : str, optional
         ``"burg"`` (the default) or ``"likelihood"``.
     window : duration, optional
@@ -241,6 +247,8 @@ def fit_chandler(
         `chi1`, `chi2` (mas) over `time`, means over the steps of the pole. The motion that it
         drives, for the same period and quality factor, is subtracted before the likelihood is
         computed. Only the common span is used.
+    columns : str, optional
+        Columns of a file, as for `polar_motion`.
 
     Returns
     -------
@@ -269,41 +277,45 @@ def fit_chandler(
     length = None if window is None else _DAYS.read(window, Where("window"))
     if excitation is None:
         word = kind_of(Method).read("burg" if method is None else method, Where("method"))
-        time, p, repairs = _given_pole(ds)
+        time, p, repairs = _given_pole(ds, columns)
         fit = observed.fit(time, p, word)
     else:
         if not (method is None or (isinstance(method, str) and method == "likelihood")):  # type: ignore[redundant-expr]
             raise SceneError("method", method, "with an excitation it is 'likelihood'")
-        time, p, chi, repairs = _together(ds, excitation)
+        time, p, chi, repairs = _together(ds, excitation, columns)
         fit = observed.fit_with_excitation(time, p, chi)
-    source = {"source": ds.attrs["source"]} if "source" in ds.attrs else {}
+    attributes = getattr(ds, "attrs", {})
+    source = {"source": attributes["source"]} if "source" in attributes else {}
     wobble = _free_wobble(time, p, fit, length).dataset()
     return wobble.rename(middle="time").assign_attrs(source | repairs)
 
 
 def _given_pole(
-    pole: xr.Dataset | pd.DataFrame,
+    pole: xr.Dataset | pd.DataFrame | str | PathLike[str], columns: str | None = None
 ) -> tuple[FloatArray, ComplexArray, dict[str, str]]:
     """Days from J2000.0, polar motion in mas, and an attribute that describes repairs, if any.
 
     Small gaps and rows without numbers are repaired as in tables of the pole.
     """
-    time, p = complex_pole(pole)
-    steps = np.diff(time)
-    if np.isfinite(p).all() and np.all(abs(steps - steps[0]) <= SAME_DAY):
-        return time, p, {}
-    table = read_polar_motion(tables.PoleInput().read(pole, Where("ds")))
+    if columns is None and not isinstance(pole, (str, PathLike)):
+        time, p = complex_pole(pole)
+        steps = np.diff(time)
+        if np.isfinite(p).all() and np.all(abs(steps - steps[0]) <= SAME_DAY):
+            return time, p, {}
+    table = read_polar_motion(tables.PoleInput().read(pole, Where("ds")), columns=columns)
     return table.mjd - MJD, table.pole, {"repairs": table.repairs} if table.repairs else {}
 
 
 def _together(
-    pole: xr.Dataset | pd.DataFrame, chi: xr.Dataset
+    pole: xr.Dataset | pd.DataFrame | str | PathLike[str],
+    chi: xr.Dataset,
+    columns: str | None = None,
 ) -> tuple[FloatArray, ComplexArray, ComplexArray, dict[str, str]]:
     """Return dates, pole, mean excitation and repairs for the days that both series cover.
 
     The excitation is the mean over each step between dates; pole and excitation are in mas.
     """
-    time, p, repairs = _given_pole(pole)
+    time, p, repairs = _given_pole(pole, columns)
     middles, driving = _complex_excitation(chi)
     ends = ex.ends_of_steps(middles, _even_step(middles))
     step = _even_step(time)
@@ -346,18 +358,24 @@ class DrivenPole(tables.Daily, no_error="excitation and free wobble are given wi
 
 @in_range("excitation")
 def excitation(
-    ds: xr.Dataset | pd.DataFrame, *, period: Any = 433.0, quality_factor: Any = 100.0
+    ds: xr.Dataset | pd.DataFrame | str | PathLike[str],
+    *,
+    period: Any = 433.0,
+    quality_factor: Any = 100.0,
+    columns: str | None = None,
 ) -> xr.Dataset:
     """Excitation that produces a given polar motion, as exact means over each time step.
 
     Parameters
     ----------
-    ds : Dataset or DataFrame
+    ds : Dataset, DataFrame, str or Path
         `x` and `y` over `time`, as for `fit_chandler`.
     period : duration
         Period of the free wobble; plain numbers are in days.
     quality_factor : float
         Quality factor of the free wobble.
+    columns : str, optional
+        Columns of a file, as for `polar_motion`.
 
     Returns
     -------
@@ -378,7 +396,7 @@ def excitation(
     1828 1827
     """
     days, q = _DAYS.read(period, Where("period")), _PURE.read(quality_factor, _Q)
-    time, p, repairs = _given_pole(ds)
+    time, p, repairs = _given_pole(ds, columns)
     step = _even_step(time)
     chi = ex.excitation(p, step, ex.chandler_frequency(days, q))
     start_x, start_y = ex.coordinates_of(p[0])
@@ -489,6 +507,7 @@ def read_excitation(
     components: Sequence[str] | None = None,
     terms: Sequence[str] = ("mass", "motion"),
     daily: bool = False,
+    columns: str | None = None,
 ) -> xr.Dataset:
     r"""Read effective angular momentum functions in the common ASCII layout.
 
@@ -504,6 +523,8 @@ def read_excitation(
         ``"mass"``, ``"motion"``, or both.
     daily : bool
         Average over days from 0h to 0h, as in the `excitation` of daily polar motion.
+    columns : str, optional
+        Columns of the files if these are of another layout, like ``"mjd, mass1, mass2, ..."``.
 
     Returns
     -------
@@ -534,8 +555,10 @@ def read_excitation(
         components = Several(Text()).read(components, Where("components"))
     if not terms:
         raise SceneError("terms", terms, nearest("", TERMS))
-    paths = Several(FileName()).read(path, Where("path"))
-    table = read_angular_momentum([Path(name) for name in paths], components, daily=daily)
+    paths = [Path(name) for name in Several(FileName()).read(path, Where("path"))]
+    if columns is not None:
+        columns = Text().read(columns, Where("columns"))
+    table = read_angular_momentum(paths, components, daily=daily, columns=columns)
     chi = sum(getattr(table, term) for term in set(terms))
     result = Excitation(time=datetime64(table.mjd - MJD), chi1=chi.real, chi2=chi.imag).dataset()
     names = " + ".join(components or ("all components",))

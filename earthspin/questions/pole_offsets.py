@@ -61,10 +61,12 @@ class ObservedOffsets(tables.Daily):
 
 
 @part(unless=tables.no_observed_pole)
-def offset_table(file: PoleTable, kind: str | None, span: Span | None) -> PoleSeries:
+def offset_table(
+    file: PoleTable, kind: str | None, columns: str | None, span: Span | None
+) -> PoleSeries:
     """Read the celestial pole offsets of a table of the IERS, within the requested span."""
-    first = -math.inf if span is None else span.days[0] + MJD
-    return tables.within(read_pole_offsets(file, kind, first), span)
+    table = read_pole_offsets(file, kind, columns, tables.mjd_span(span))
+    return tables.within(table, span)
 
 
 @part(unless=tables.no_observed_pole)

@@ -7,7 +7,6 @@ There is one file for each year and component, and the years may overlap.
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -15,14 +14,19 @@ from pathlib import Path
 
 import numpy as np
 
+from earthspin import tables
 from earthspin.errors import SeriesError, nearest
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.sky.columns import check_calendar, lines_of, numbers, refuse_text_between, rows_of
+from earthspin.tables import Column, Sheet
+from earthspin.tables.layouts import ANGULAR_MOMENTUM
 
 #: Components, by the word in the file name.
 COMPONENTS = {"AAM": "atmosphere", "OAM": "ocean", "HAM": "hydrology", "SLAM": "sea level"}
 #: Mass and motion terms, by which a component excites polar motion.
 TERMS = ("mass", "motion")
+_NAMES = ("mass1", "mass2", "motion1", "motion2")
+#: Place of the modified Julian date in the common layout.
+_MJD_PLACE = 4
 #: Plausibility bound, rad: 20 arcsec, more than any observed value.
 LARGEST = 1e-4
 #: Tolerance for equal dates, d.
@@ -94,6 +98,7 @@ def read_angular_momentum(
     components: Iterable[str] | None = None,
     *,
     daily: bool = False,
+    columns: str | None = None,
 ) -> AngularMomentum:
     """Read effective angular momentum functions from files, and add up all components.
 
@@ -109,6 +114,8 @@ def read_angular_momentum(
         files.
     daily : bool
         Whether to compute daily means, which is necessary if the components have different dates.
+    columns : str, optional
+        Declaration of the columns of all files, like ``"mjd, mass1, mass2, ..."``.
 
     Raises
     ------
@@ -116,7 +123,7 @@ def read_angular_momentum(
         If a file is invalid; the message gives the line.
     """
     files = _files(paths, components)
-    joined = [_joined(group) for group in files.values()]
+    joined = [_joined(group, columns) for group in files.values()]
     parts = [part.daily() for part in joined] if daily else joined
     first, last = max(p.mjd[0] for p in parts), min(p.mjd[-1] for p in parts)
     common = [_between(part, first, last) for part in parts]
@@ -167,9 +174,9 @@ def _files(
     return {word: files[word] for word in chosen}
 
 
-def _joined(files: list[Path]) -> AngularMomentum:
+def _joined(files: list[Path], columns: str | None) -> AngularMomentum:
     """Join the rows of all files of one component in order of time, without repeated rows."""
-    rows = sorted((row for file in files for row in _rows(file)), key=lambda row: row.mjd)
+    rows = sorted((row for file in files for row in _rows(file, columns)), key=lambda row: row.mjd)
     if len(rows) < 2:
         raise SeriesError(files[0], f"it holds {len(rows)} rows of excitation")
     unique = rows[:1]
@@ -195,24 +202,53 @@ def _joined(files: list[Path]) -> AngularMomentum:
     )
 
 
-def _rows(file: Path) -> Iterable[_Row]:
-    """Yield the rows of one file; header lines, which do not start with a number, are ignored."""
-    last, lines = -math.inf, lines_of(file)
-    refuse_text_between(file, lines)
-    for number, words in rows_of(lines):
-        if len(words) not in (8, 11):
-            problem = f"{len(words)} columns"
-            raise SeriesError(file, problem, "8 or 11 are expected; is it cut off?", line=number)
-        *calendar, mjd = numbers(file, number, words[:5])
-        check_calendar(file, number, calendar, mjd)
-        if mjd < last:
-            problem = f"MJD {mjd:.3f} comes after {last:.3f}"
-            raise SeriesError(file, problem, "time runs backwards", line=number)
-        last = mjd
-        terms = numbers(file, number, words[5:])
-        mass, motion = complex(*terms[:2]), complex(*terms[3:5])
-        for chi in (mass, motion):
-            if not abs(chi) <= LARGEST:
-                problem = f"excitation {chi:.3g} is no such number"
-                raise SeriesError(file, problem, "give radians", line=number)
-        yield _Row(file, number, mjd, mass, motion)
+def _rows(file: Path, columns: str | None) -> list[_Row]:
+    """Rows of one file."""
+    sheet = tables.split(file)
+    sheet.refuse_text()
+    meaning = _meaning(sheet, columns)
+    mjd = tables.dates_of(sheet, meaning)
+    if np.any(np.diff(mjd) < 0):
+        row = int(np.argmax(np.diff(mjd) < 0)) + 1
+        problem = f"MJD {mjd[row]:.3f} comes after {mjd[row - 1]:.3f}"
+        raise sheet.error(problem, "time runs backwards", row)
+    places = {column.quantity: place for place, column in enumerate(meaning)}
+    terms = []
+    for name in TERMS:
+        chi = np.zeros(mjd.size, dtype=complex)
+        for axis, factor in (("1", 1.0), ("2", 1j)):
+            if (place := places.get(name + axis)) is not None:
+                chi += factor * sheet.converted(place, meaning[place]._replace(unit="rad"), "rad")
+        if not np.all(small := abs(chi) <= LARGEST):
+            row = int(np.argmin(small))
+            raise sheet.error(f"excitation {chi[row]:.3g} is no such number", "give radians", row)
+        terms.append(chi)
+    return [_Row(file, *row) for row in zip(sheet.lines, mjd, *terms, strict=True)]
+
+
+def _meaning(sheet: Sheet, text: str | None) -> list[Column]:
+    """Columns of a file: as declared, or those of the common layout with as many.
+
+    Raises
+    ------
+    SeriesError
+        If there is no such layout, or the header has the date in another column.
+    """
+    known = [layout.columns for layout in ANGULAR_MOMENTUM]
+    chosen = text or next((x for x in known if tables.fits(x, sheet.width)), "")
+    meaning = tables.declared(chosen)
+    unknown = [c.quantity for c in meaning if c.quantity not in (*tables.DATES, *_NAMES, "")]
+    if text and unknown:
+        allowed = ", ".join((*tables.DATES, *_NAMES))
+        raise sheet.error(f"columns = '{text}': '{unknown[0]}' is not known", f"allowed: {allowed}")
+    dates = tables.places(sheet.names, {"mjd": tables.DATES["mjd"]})
+    if not text and dates and chosen and dates["mjd"] != _MJD_PLACE:
+        words = [tables.BLANK] * sheet.width
+        words[dates["mjd"]] = Column("mjd")
+        raise sheet.not_understood(words)
+    if not (chosen and tables.fits(chosen, sheet.width)):
+        expected = str(len(meaning)) if text else "8 or 11"
+        remedy = f"{expected} are expected; name them, like columns='mjd, mass1, mass2, ...'"
+        raise sheet.error(f"{sheet.width} columns", remedy, 0)
+    sheet.refuse_other_lengths(chosen)
+    return meaning

@@ -11,7 +11,7 @@ from astropy.utils import iers
 
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky.eop import day_of
+from earthspin.sky.pole_rows import day_of
 
 
 class PoleTable(iers.IERS_A):  # type: ignore[misc]

@@ -67,7 +67,7 @@ def test_damaged_files(file: Path, old: str, new: str, message: str) -> None:
 
 def test_an_empty_file(file: Path) -> None:
     file.write_text("# nothing\n")
-    with pytest.raises(SeriesError, match="holds 0 rows"):
+    with pytest.raises(SeriesError, match="holds no rows"):
         read_angular_momentum(file)
 
 

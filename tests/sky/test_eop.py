@@ -12,7 +12,7 @@ import pytest
 import earthspin
 from earthspin import SeriesError
 from earthspin.constants import ARCSEC, MAS
-from earthspin.sky import eop
+from earthspin.sky import eop, pole_tables
 from tests.reference import simulation
 
 
@@ -241,7 +241,7 @@ def below(change: Callable[[str], str]) -> Callable[[list[str]], list[str]]:
 @pytest.mark.parametrize(
     ("damage", "message"),
     [
-        (lambda rows: [*rows[:-1], rows[-1][:80]], "line 406: 10 columns; 16 or 21 .* cut off"),
+        (lambda rows: [*rows[:-1], rows[-1][:80]], "line 406: 10 columns; 21 are .* cut off"),
         (lambda rows: [*rows[:-1], rows[-1][:130]], "line 406: .*cut off"),
         (lambda rows: rows[:100] + rows[140:], r"line 100: a gap of 41.0 d follows MJD \d+"),
         (
@@ -274,7 +274,7 @@ def below(change: Callable[[str], str]) -> Callable[[list[str]], list[str]]:
         (at(150, lambda row: row[:16] + "       nan" + row[26:]), "line 151: .*calendar"),
         (at(150, lambda row: row[:16] + "       inf" + row[26:]), "line 151: .*calendar"),
         (at(20, lambda row: row[:26] + "       pole " + row[38:]), "line 21: could not convert"),
-        (lambda rows: rows[:6], "none of the known tables"),
+        (lambda rows: rows[:6], "holds no rows of numbers"),
         (lambda rows: rows[:7], "holds 1 rows"),
         (lambda rows: ["this is no table", "1 2 3"], "none of the known tables"),
     ],
@@ -379,8 +379,8 @@ def test_published_layouts_by_name_of_column(file: Path, layout: str) -> None:
     ("text", "words"),
     [
         (" I E R S  B U L L E T I N - A\n 5 September\n 26 9 5 61288 0.1\n", "finals2000A.all"),
-        ("year,pole\n2000.0,0.1\n", "pandas table"),
-        ("0 0 0 0 0 0\n1 1 1 1 1 1\n", "name its kind.* pandas table"),
+        ("year,pole\n2000.0,0.1\n", "header 'year, pole' is not understood.* pandas table"),
+        ("0 0 0 0 0 0\n1 1 1 1 1 1\n", "name its columns.* pandas table"),
         (PUBLISHED["EOP2"][0].replace("Last UTPM", ""), "header"),
         (PUBLISHED["EOP2"][0].replace(f"Point   {DATES[2]}", "Point   2025-11-31"), "no date"),
         (PUBLISHED["c04.csv"][0].rsplit(";", 1)[0], "line 7: 26 columns; 27"),
@@ -389,9 +389,8 @@ def test_published_layouts_by_name_of_column(file: Path, layout: str) -> None:
 )
 def test_other_tables_are_refused_with_a_remedy(file: Path, text: str, words: str) -> None:
     file.write_text(text)
-    with pytest.raises(SeriesError, match=words) as error:
+    with pytest.raises(SeriesError, match=words):
         earthspin.polar_motion(file=file)
-    assert ("name its kind" in str(error.value)) == ("kind" in words)
 
 
 @pytest.mark.parametrize("text", [part_of_c01(46900, 48000), PUBLISHED["EOP2"][0]], ids=range(2))
@@ -420,7 +419,7 @@ def test_predictions_are_not_looked_for_in_other_tables(
     lines: list[str], file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file.write_text("\n".join(lines))
-    monkeypatch.setattr(eop, "_rows", None)
+    monkeypatch.setattr(pole_tables, "rows_of", None)
     assert eop.read_bulletin_a(file) is None
 
 

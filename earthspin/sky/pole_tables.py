@@ -1,0 +1,320 @@
+"""Columns of tables of the pole: by layout, by the names in the header, or as the user declares.
+
+What x and y mean is compared with the observed pole of finals2000A, which astropy includes.
+"""
+
+from __future__ import annotations
+
+import datetime
+import itertools
+import math
+import re
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from earthspin import tables
+from earthspin.errors import SeriesError
+from earthspin.numerics.arrays import FloatArray
+from earthspin.sky.pole_rows import Coordinates
+from earthspin.tables import BLANK, Column, Sheet
+from earthspin.tables import layouts as published
+
+#: Names of columns in headers, in lower case.
+NAMES: dict[str, tuple[str, ...]] = {
+    "x": ("x", "x_pole", "pm_x", "xp", "xpole", "pm-x", "polar_motion_x"),
+    "y": ("y", "y_pole", "pm_y", "yp", "ypole", "pm-y", "polar_motion_y"),
+    "dx": ("dx", "dx_2000a"), "dy": ("dy", "dy_2000a"),
+    "e_x": ("sigma_x", "sigma_x_pole", "e_x", "x_error", "e_pm_x", "x-err", "x_er", "xsig"),
+    "e_y": ("sigma_y", "sigma_y_pole", "e_y", "y_error", "e_pm_y", "y-err", "y_er", "ysig"),
+    "e_dx": ("sigma_dx", "e_dx", "dx_error", "dx_er", "e_dx_2000a"),
+    "e_dy": ("sigma_dy", "e_dy", "dy_error", "dy_er", "e_dy_2000a"),
+}  # fmt: skip
+#: Name of a table whose columns are named by the user or by a header that nobody publishes.
+NAMED = "named columns"
+#: How any other table is used.
+AS_PANDAS = "give a pandas table with x, y, dates as index and attrs['units'] = 'arcsec' or 'mas'"
+#: Median distance of x, y from finals2000A up to which they agree, arcsec, and its multiple from
+#: which they do not: C01 differs by up to 0.005, and x, y exchanged or of another sign by more than
+#: 0.3. At least so many days must be common.
+SAME_POLE, OTHER_POLE, FEWEST = 0.01, 3.0, 5
+#: Units in which tables hold the pole.
+_UNITS = ("arcsec", "mas", "uas", "0.1 arcsec", "deg", "rad")
+
+
+class PoleColumns(NamedTuple):
+    """Name of a table and the meaning of its columns.
+
+    Attributes
+    ----------
+    name : str
+    columns : list of Column
+    declared : bool
+        Whether the user, a header or a known layout declares them, and not their number.
+    """
+
+    name: str
+    columns: list[Column]
+    declared: bool = True
+
+
+def split(
+    file: Path, kind: str | None, columns: str | None, known: Callable[[], FloatArray]
+) -> tuple[Sheet, PoleColumns]:
+    """Split a table of the pole into rows, and find what its columns mean.
+
+    Parameters
+    ----------
+    file : Path
+    kind : str or None
+        Name of its layout.
+    columns : str or None
+        Declaration of its columns.
+    known : callable
+        Function that returns modified Julian dates, x and y of finals2000A, arcsec, shape (3, m).
+
+    Raises
+    ------
+    SeriesError
+        If the table is of no known layout; the message has the key to give.
+    """
+    sheet = tables.split(file, () if columns else published.POLE_BY_HEAD)
+    if columns:
+        return sheet, PoleColumns(NAMED, _given(sheet, columns))
+    if layout := sheet.layout:
+        sheet.refuse_other_lengths("" if layout.edges else layout.columns)
+        return sheet, PoleColumns(layout.name, tables.declared(layout.columns))
+    if by_names := _by_names(sheet):
+        sheet.refuse_other_lengths()
+        return sheet, by_names
+    for layout in _without_header(sheet, kind):
+        if tables.fits(layout.columns, sheet.width):
+            sheet.refuse_other_lengths()
+            meaning = tables.declared(layout.columns)
+            declared = kind is not None or layout is published.C01_BY_MJD
+            return sheet, PoleColumns(layout.name, meaning, declared)
+    raise _unknown(sheet, kind, known)
+
+
+def _given(sheet: Sheet, text: str) -> list[Column]:
+    """Columns as the user declares them."""
+    meaning = tables.declared(text)
+    allowed = (*tables.DATES, *NAMES, "type", "")
+    if unknown := [c.quantity for c in meaning if c.quantity not in allowed]:
+        problem = f"columns = '{text}': '{unknown[0]}' is not known"
+        raise sheet.error(problem, f"allowed: {', '.join(allowed[:-1])}")
+    if not tables.fits(text, sheet.width):
+        problem = f"{sheet.width} columns, of which {len(meaning)} are named"
+        raise sheet.error(problem, f"name each, leave names empty, or end with '{tables.MORE}'")
+    if without := [str(c) for c in meaning if c.quantity in NAMES and c.unit not in _UNITS]:
+        problem = f"columns = '{text}': '{without[0]}' has no unit of an angle"
+        raise sheet.error(problem, f"write it like '{without[0].split()[0]} (arcsec)'")
+    sheet.refuse_other_lengths(text)
+    return meaning
+
+
+def _by_names(sheet: Sheet) -> PoleColumns | None:
+    """Columns by the names in the header; None if these have no date or no coordinates."""
+    places = tables.places(sheet.names, NAMES)
+    dates = tables.places(sheet.names, tables.DATES)
+    dated = {"mjd", "jd", "date", "year"} & {*dates}
+    if not (dated and {"x", "y", "dx", "dy"} & {*places}):
+        return None
+    columns = [Column("type") if "type" in n.lower() else BLANK for n in sheet.names]
+    final = any("final" in row for row in sheet.rows)
+    for quantity, place in places.items():
+        unit = "mas" if final and quantity in ("dx", "dy", "e_dx", "e_dy") else "arcsec"
+        columns[place] = Column(quantity, tables.column_of(sheet.names[place]).unit or unit)
+    for quantity, place in dates.items():
+        columns[place] = Column(quantity)
+    names = {NAMED: True, "c04.csv": "x_pole" in sheet.names, "EOP-All.csv": "DAT" in sheet.names}
+    names |= {"finals2000A.csv": final, "c01": {"year"} == {*dates}}
+    return PoleColumns(next(n for n in reversed(names) if names[n]), columns)
+
+
+def _without_header(sheet: Sheet, kind: str | None) -> Sequence[published.Layout]:
+    """Layouts without a header that are possible by the first cell of a table, or of a kind."""
+    if kind == "c04":
+        return published.C04
+    if kind == "c01":
+        return (published.C01_BY_MJD, *published.C01_BY_YEAR)
+    if sheet.names or kind:
+        return ()
+    first = sheet.rows[0][0]
+    if not (tables.is_number(first) and 1800 <= float(first) <= 2200):
+        return (published.C01_BY_MJD,)
+    return published.C01_BY_YEAR if "." in first else published.C04
+
+
+def _unknown(sheet: Sheet, kind: str | None, known: Callable[[], FloatArray]) -> SeriesError:
+    """Build an error for a table of no known layout, with the columns to type."""
+    if kind:
+        counts = dict.fromkeys(
+            str(len(tables.declared(layout.columns))) for layout in _without_header(sheet, kind)
+        )
+        problem = f"{sheet.width} columns; {' or '.join(counts) or 15} are expected in {kind}"
+        return sheet.error(problem, "is it another kind?", 0)
+    guess = guessed(sheet, known())
+    if sheet.names:
+        names, words = tables.places(sheet.names, tables.DATES | NAMES), [BLANK] * sheet.width
+        for name, place in names.items():
+            words[place] = Column(name, "arcsec" if name in NAMES else "")
+        return sheet.not_understood(
+            guess or words, "" if guess else f"(x and y are needed), or {AS_PANDAS}"
+        )
+    example = [Column("mjd"), Column("x", "arcsec"), Column("y", "arcsec")]
+    key = tables.typed(guess or example, more=not guess and sheet.width > len(example))
+    remedy = f"{key} agrees with finals2000A" if guess else f"such as {key}; or {AS_PANDAS}"
+    return sheet.error("it is none of the known tables", f"name its columns: {remedy}")
+
+
+# --- rows -----------------------------------------------------------------------------------------
+
+
+def observed(sheet: Sheet, table: PoleColumns, pair: Coordinates, predicted: bool = False) -> Sheet:
+    """Rows of a table that are observed, or else those that are predicted, and have values.
+
+    Raises
+    ------
+    SeriesError
+        If the table does not hold the two coordinates, or a row of fixed columns ends early.
+    """
+    names = [column.quantity for column in table.columns]
+    x, y = pair.words.lower().split(", ")
+    if not {x, y} <= {*names}:
+        problem = f"a table {table.name} of {sheet.width} columns holds no {pair.words}"
+        by_year = "take one of 11 columns, or by MJD, of 29"
+        raise sheet.error(problem, by_year if table.name == "c01" else AS_PANDAS)
+    flags = [place for place, name in enumerate(names) if name == "type"]
+    flag = flags[pair.flag % len(flags)] if flags else None
+    if flag is not None and any(row[flag].strip() for row in sheet.rows):
+        kept = ("P", "p") if predicted else ("I", "f", "O")  # "P", "prediction"; "I", "final"
+        sheet = sheet.only([row[flag].startswith(kept) for row in sheet.rows])
+    both = names.index(x), names.index(y)  # dates without values are no rows
+    sheet = sheet.only([any(row[place].strip() for place in both) for row in sheet.rows])
+    if sheet.layout and sheet.layout.edges:
+        error = names.index(f"e_{y}")
+        begin, end = sheet.layout.edges[error]
+        short = [len(row[error]) < end - begin for row in sheet.rows]
+        if any(short):
+            raise sheet.error("it ends early", "is the file cut off?", short.index(True))
+    return sheet
+
+
+def rows_of(sheet: Sheet, table: PoleColumns, pair: Coordinates) -> FloatArray:
+    """Rows of a table, (n, 6): line, MJD, x, y, x_error, y_error (arcsec)."""
+    places = {column.quantity: place for place, column in enumerate(table.columns)}
+    x, y = pair.words.lower().split(", ")
+    missing = np.full(len(sheet.rows), np.nan)
+    values = [
+        sheet.converted(places[name], table.columns[places[name]], "arcsec")
+        if name in places
+        else missing
+        for name in (x, y, f"e_{x}", f"e_{y}")
+    ]
+    mjd = tables.dates_of(sheet, table.columns)
+    rows = np.array([np.array(sheet.lines, dtype=float), mjd, *values]).T
+    if table.name != "EOP2":
+        return rows
+    datum = re.search(rf"last {pair.datum}\D+([\d-]+)", sheet.words, re.IGNORECASE)
+    try:
+        last = np.datetime64(datetime.date.fromisoformat(datum[1] if datum else ""))
+    except ValueError:
+        problem = f"its header gives no date of the last observed {pair.words}"
+        raise sheet.error(problem, "take a file with its header") from None
+    return rows[~(mjd > (last - tables.MJD_0) / np.timedelta64(1, "D"))]
+
+
+# --- comparison with finals2000A ------------------------------------------------------------------
+
+
+def check(sheet: Sheet, table: PoleColumns, mjd: FloatArray, known: FloatArray) -> None:
+    """Refuse x, y that agree with the observed pole only in another meaning.
+
+    Columns that only their number tells must agree with it as they are.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    table : PoleColumns
+    mjd : array, shape (n,)
+        Modified Julian dates of the rows.
+    known : array, shape (3, m)
+        Modified Julian dates, x and y of finals2000A, arcsec.
+
+    Raises
+    ------
+    SeriesError
+        The message has the other meaning.
+    """
+
+    def misfit(columns: Sequence[Column]) -> float:
+        return _misfit(sheet, mjd, columns, known)
+
+    tables.refuse_other_meaning(sheet, table.columns, _others(table.columns), misfit)
+    distance = misfit(table.columns)
+    if not table.declared and distance > OTHER_POLE:
+        problem = f"as a table {table.name} its x, y are {distance * SAME_POLE:.2g} arcsec from"
+        remedy = f"give kind='{table.name}' if they are simulated, or columns='mjd, ...'"
+        raise sheet.error(f"{problem} finals2000A (median)", remedy)
+
+
+def _misfit(sheet: Sheet, mjd: FloatArray, columns: Sequence[Column], known: FloatArray) -> float:
+    """Median distance of x and y, or of one of them, from the observed pole over its bound.
+
+    It is nan without common days.
+    """
+    common = (mjd >= known[0, 0]) & (mjd <= known[0, -1])
+    if np.count_nonzero(common) < FEWEST:
+        return math.nan
+    off = [
+        sheet.converted(place, column, "arcsec")[common]
+        - np.interp(mjd[common], known[0], known["xy".index(column.quantity) + 1])
+        for place, column in enumerate(columns)
+        if column.quantity in ("x", "y")
+    ]
+    return float(np.nanmedian(np.hypot.reduce(off))) / SAME_POLE if off else math.nan
+
+
+def _others(columns: Sequence[Column]) -> Iterator[list[Column]]:
+    """Other meanings of x and y: exchanged, of the other sign, in other units."""
+    exchange = {"x": "y", "y": "x", "e_x": "e_y", "e_y": "e_x"}
+    angles = [column.unit for column in columns if column.quantity == "x"]
+    for words in ({}, exchange):
+        for unit in (*angles, *_UNITS):
+            new = tables.with_words(columns, words | dict.fromkeys(angles, unit))
+            for signs in itertools.product((1.0, -1.0), repeat=2):
+                sign = dict(zip(("x", "y"), signs, strict=True))
+                yield [c._replace(sign=c.sign * sign.get(c.quantity, 1.0)) for c in new]
+
+
+def guessed(sheet: Sheet, known: FloatArray) -> list[Column] | None:
+    """Meaning of columns by which x and y agree with the observed pole; None if none does."""
+    blank, options = (
+        [BLANK] * sheet.width,
+        [
+            Column(name, unit, sign)
+            for unit in _UNITS
+            for sign in (1.0, -1.0)
+            for name in ("x", "y")
+        ],
+    )
+    for names in (("mjd",), ("jd",), ("date",), ("year", "month", "day"), ("year",)):
+        time = [*map(Column, names), *blank][: sheet.width]
+        try:
+            mjd = tables.dates_of(sheet, time)
+        except (SeriesError, IndexError):
+            continue
+
+        def misfit(columns: Sequence[Column], mjd: FloatArray = mjd) -> float:
+            try:
+                return _misfit(sheet, mjd, columns, known)
+            except SeriesError:
+                return math.nan
+
+        _, meaning = tables.guessed(blank, range(sheet.width), [time], options, misfit)
+        if {"x", "y"} <= {column.quantity for column in meaning}:
+            return meaning
+    return None
