@@ -311,7 +311,7 @@ def guessed(sheet: Sheet, known: FloatArray) -> list[Column] | None:
         def misfit(columns: Sequence[Column], mjd: FloatArray = mjd) -> float:
             try:
                 return _misfit(sheet, mjd, columns, known)
-            except SeriesError:
+            except (SeriesError, IndexError):  # text, or rows of different length
                 return math.nan
 
         _, meaning = tables.guessed(blank, range(sheet.width), [time], options, misfit)

@@ -24,7 +24,7 @@ from earthspin import EarthspinError, UndefinedError, process
 from earthspin.cli import main
 from earthspin.engine import public_calls, run
 from earthspin.views.rendering import scene_page, tables_for
-from tests.fuzz import borders, inputs, requests
+from tests.fuzz import borders, inputs, requests, tables
 from tests.processes import OLD_TABLE
 
 #: Longest message: `LONGEST_MESSAGE` and what a command puts around it.
@@ -236,6 +236,12 @@ def border(rng: random.Random) -> tuple[str, str]:
     return shown[:300], escapes(ask)
 
 
+def table(rng: random.Random) -> tuple[str, str]:
+    """Read a table with a foreign header or shuffled columns: what it was, and what escaped."""
+    shown, ask = rng.choice((tables.solution, tables.pole))(rng)
+    return shown, escapes(ask)
+
+
 #: Numbers that some sound answers do not have: of a rigid body, and of a top on the separatrix.
 UNDEFINED = ("quality_factor", "nutation_period")
 
@@ -247,9 +253,10 @@ KINDS = {
     "executed": executed,
     "answers": answer,
     "borders": border,
+    "tables": table,
 }
 #: Kinds that are carried out, with the share of the count of the others that is tried of them.
-EXECUTED = {"executed": 0.05, "answers": 0.05, "borders": 0.05}
+EXECUTED = {"executed": 0.05, "answers": 0.05, "borders": 0.05, "tables": 0.05}
 
 
 def tried(kind: str, seed: int, count: int) -> dict[str, str]:

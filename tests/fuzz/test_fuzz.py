@@ -17,6 +17,7 @@ COUNTS = {
     "executed": 20,
     "answers": 30,
     "borders": 60,
+    "tables": 60,
 }
 
 
