@@ -319,7 +319,7 @@ class SeriesError(EarthspinError, ValueError):
     ...     earthspin.polar_motion(file="pole.txt")
     ... except earthspin.SeriesError as error:
     ...     print(str(error).split(";")[0])
-    file 'pole.txt': it is none of the known tables
+    file 'pole.txt': it holds no rows of numbers
     """
 
     def __init__(self, path: Any, problem: str, remedy: str = "", line: int | None = None) -> None:
