@@ -14,7 +14,7 @@ import numpy as np
 from earthspin import tables
 from earthspin._lazy import xr
 from earthspin.engine.atomic_writes import as_path
-from earthspin.errors import SceneError, SeriesError, Where, nearest
+from earthspin.errors import SeriesError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.long_term import LongTermSeries, long_term
 from earthspin.tables import BLANK, Column, Sheet
@@ -29,7 +29,6 @@ QUANTITIES = {name: q for name, q in LongTermSeries.schema.items() if q.dims == 
 QUANTITIES["epoch"] = LongTermSeries.fields["epoch"]
 #: Name of the Sun's perigee, whose longitude is that of the perihelion plus 180 degrees.
 _PERIGEE = "longitude_of_perigee"
-_WHERE = Where("columns", "read_solution")
 #: Longest time between rows over which the perihelion can be followed, Julian years.
 FARTHEST = 5000.0
 
@@ -97,10 +96,8 @@ def read_solution(
     Raises
     ------
     SeriesError
-        If the columns are not understood, or agree with the Earth only in another meaning, or an
-        epoch is repeated. The message has the `columns` to give.
-    SceneError
-        If `columns` has an unknown name or unit.
+        If the columns are not understood, have an unknown name or unit, or agree with the Earth
+        only in another meaning, or an epoch is repeated. The message has the `columns` to give.
 
     Examples
     --------
@@ -114,12 +111,15 @@ def read_solution(
     [0.01]
     """
     if not (columns is None or isinstance(columns, str)):
-        raise _WHERE.error(columns, "give one text, like 'epoch (kyr), obliquity (deg)'")
+        raise Where("columns", "read_solution").error(
+            columns, "give one text, like 'epoch (kyr), obliquity (deg)'"
+        )
     frame = tables.is_frame(path)
     sheet = tables.of_frame(path) if frame else tables.split(as_path(path), SOLUTIONS)
     sheet.refuse_text()
     sheet.refuse_other_lengths()
-    meaning = tables.declared(columns) if columns else _understood(sheet)
+    known = (*QUANTITIES, _PERIGEE)
+    meaning = sheet.as_declared(columns, known) if columns else _understood(sheet)
     data = _converted(sheet, meaning)
     tables.refuse_other_meaning(sheet, meaning, _others(sheet, meaning), partial(_misfit, sheet))
     body = next((body for body in KNOWN if _misfit(sheet, meaning, (body,)) <= 1), "")
@@ -180,28 +180,19 @@ def _understood(sheet: Sheet) -> list[Column]:
 def _converted(sheet: Sheet, meaning: Sequence[Column]) -> dict[str, FloatArray]:
     """Columns of a solution by variable name, converted to the units of `long_term`."""
     data = {}
-    for place, column in enumerate(meaning[: sheet.width]):
+    for place, column in enumerate(meaning):
         name = column.quantity.replace("perigee", "perihelion")
         if not name:
             continue
-        if name not in QUANTITIES:
-            raise _WHERE.error(name, nearest(name, QUANTITIES))
-        units = QUANTITIES[name].units
-        try:
-            data[name] = sheet.converted(place, column, units)
-        except ValueError as error:
-            if isinstance(error, SeriesError):
-                raise
-            raise _WHERE.error(str(column), f"write its unit like '{name} ({units})'") from None
+        data[name] = sheet.converted(place, column, QUANTITIES[name].units)
         data[name] = data[name] - 180.0 * (name != column.quantity)
         if not np.isfinite(data[name]).all():
             rest = [*meaning[:place], BLANK, *meaning[place + 1 :]]
             remedy = f"fill it, leave out the row, or the column: {tables.typed(rest)}"
             row = int(np.argmin(np.isfinite(data[name])))
             raise sheet.error(f"{name} is missing", remedy, row)
-    if len(meaning) != sheet.width or "epoch" not in data:
-        problem = f"{sheet.width} columns, of which {len(meaning)} are named"
-        raise sheet.error(problem, "name each, or leave its name empty; epoch is needed")
+    if "epoch" not in data:
+        raise sheet.error("it has no epoch", "epoch is needed, like 'epoch (kyr)'")
     return data
 
 
@@ -219,7 +210,7 @@ def _misfit(sheet: Sheet, meaning: Sequence[Column], bodies: Sequence[str] = KNO
     """Largest median difference from a known body in units of its bound; inf if none is known."""
     try:
         data = _converted(sheet, meaning)
-    except (SeriesError, SceneError):
+    except SeriesError:
         return math.inf
     near = abs(data["epoch"]) <= NEAR
     names = [name for name in BOUNDS if name in data]

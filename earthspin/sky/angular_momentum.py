@@ -25,8 +25,6 @@ COMPONENTS = {"AAM": "atmosphere", "OAM": "ocean", "HAM": "hydrology", "SLAM": "
 #: Mass and motion terms, by which a component excites polar motion.
 TERMS = ("mass", "motion")
 _NAMES = ("mass1", "mass2", "motion1", "motion2")
-#: Place of the modified Julian date in the common layout.
-_MJD_PLACE = 4
 #: Plausibility bound, rad: 20 arcsec, more than any observed value.
 LARGEST = 1e-4
 #: Tolerance for equal dates, d.
@@ -234,21 +232,17 @@ def _meaning(sheet: Sheet, text: str | None) -> list[Column]:
     SeriesError
         If there is no such layout, or the header has the date in another column.
     """
-    known = [layout.columns for layout in ANGULAR_MOMENTUM]
-    chosen = text or next((x for x in known if tables.fits(x, sheet.width)), "")
-    meaning = tables.declared(chosen)
-    unknown = [c.quantity for c in meaning if c.quantity not in (*tables.DATES, *_NAMES, "")]
-    if text and unknown:
-        allowed = ", ".join((*tables.DATES, *_NAMES))
-        raise sheet.error(f"columns = '{text}': '{unknown[0]}' is not known", f"allowed: {allowed}")
+    if text:
+        return sheet.as_declared(text, (*tables.DATES, *_NAMES))
+    known = [tables.declared(layout.columns) for layout in ANGULAR_MOMENTUM]
+    meaning = next((columns for columns in known if len(columns) == sheet.width), None)
     dates = tables.places(sheet.names, {"mjd": tables.DATES["mjd"]})
-    if not text and dates and chosen and dates["mjd"] != _MJD_PLACE:
+    if meaning is None:
+        remedy = "8 or 11 are expected; name them, like columns='mjd, mass1, mass2, ...'"
+        raise sheet.error(f"{sheet.width} columns", remedy, 0)
+    if dates and meaning[dates["mjd"]].quantity != "mjd":
         words = [tables.BLANK] * sheet.width
         words[dates["mjd"]] = Column("mjd")
         raise sheet.not_understood(words)
-    if not (chosen and tables.fits(chosen, sheet.width)):
-        expected = str(len(meaning)) if text else "8 or 11"
-        remedy = f"{expected} are expected; name them, like columns='mjd, mass1, mass2, ...'"
-        raise sheet.error(f"{sheet.width} columns", remedy, 0)
-    sheet.refuse_other_lengths(chosen)
+    sheet.refuse_other_lengths()
     return meaning

@@ -23,15 +23,23 @@ from earthspin.errors import SeriesError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.sky import pole_rows as checks
 from earthspin.sky import pole_tables
-from earthspin.sky.pole_rows import COLUMNS, NOT_IAU_1980, POLAR_MOTION, POLE_OFFSETS, day_of
+from earthspin.sky.pole_rows import (
+    COLUMNS,
+    NOT_IAU_1980,
+    POLAR_MOTION,
+    POLE_OFFSETS,
+    Coordinates,
+    day_of,
+)
 from earthspin.tables import Column, Sheet
 
 #: J2000.0 as a modified Julian date.
 MJD = J2000_JD - 2400000.5
 #: Layouts that can be named.
 KINDS = ("c04", "c01", "finals2000A")
-#: Span of a whole table, MJD.
-ALL = (-math.inf, math.inf)
+#: First and last modified Julian date, and those of a whole table.
+_Interval = tuple[float, float]
+ALL: _Interval = (-math.inf, math.inf)
 #: Offsets whose median distance from those of finals2000A is larger are from IAU 1980, arcsec: in
 #: C04 it is 0.1 mas, and in each year of offsets from IAU 1980 at least 3.5 mas. It is taken over
 #: days from 1984 on, MJD, since which C04 and finals2000A agree.
@@ -154,7 +162,7 @@ def read_polar_motion(
     path: PoleTable = "c04",
     kind: str | None = None,
     columns: str | None = None,
-    span: tuple[float, float] = ALL,
+    span: _Interval = ALL,
 ) -> PoleSeries:
     """Read a time series of observed polar motion.
 
@@ -175,14 +183,14 @@ def read_polar_motion(
     SeriesError
         If the file is invalid; the message gives the line.
     """
-    return _read(path, kind, columns, POLAR_MOTION, span)
+    return _read(path, POLAR_MOTION, kind, columns, span)
 
 
 def read_pole_offsets(
     path: PoleTable = "c04",
     kind: str | None = None,
     columns: str | None = None,
-    span: tuple[float, float] = ALL,
+    span: _Interval = ALL,
 ) -> PoleSeries:
     """Read a time series of observed celestial pole offsets dX, dY.
 
@@ -202,7 +210,7 @@ def read_pole_offsets(
     SeriesError
         If the file is invalid; the message gives the line.
     """
-    return _read(path, kind, columns, POLE_OFFSETS, span)
+    return _read(path, POLE_OFFSETS, kind, columns, span)
 
 
 def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
@@ -233,12 +241,12 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
     return replace(_series(even, "Bulletin A", []), sha256=tables.checksum(file))
 
 
+#: File, its SHA-256, kind, columns, and coordinates that are read from it.
+_Request = tuple[Path, str, str | None, str | None, Coordinates]
+
+
 def _read(
-    path: PoleTable,
-    kind: str | None,
-    columns: str | None,
-    pair: checks.Coordinates,
-    span: tuple[float, float],
+    path: PoleTable, pair: Coordinates, kind: str | None, columns: str | None, span: _Interval
 ) -> PoleSeries:
     """Read polar motion or celestial pole offsets; unchanged files are not parsed again."""
     if isinstance(path, GivenSeries):
@@ -252,12 +260,10 @@ def _read(
     if kind and columns:
         raise SeriesError(file, "kind and columns are both given", "leave out one of them")
     tables.lines_of(file)  # refuses what cannot be read
-    return _of_file(file, tables.checksum(file), kind, columns, pair, span)
+    return _of_file((file, tables.checksum(file), kind, columns, pair), span)
 
 
-def _of_given(
-    given: GivenSeries, pair: checks.Coordinates, span: tuple[float, float]
-) -> PoleSeries:
+def _of_given(given: GivenSeries, pair: Coordinates, span: _Interval) -> PoleSeries:
     """Check a table of the caller."""
     days, *values = given.rows
     rows = np.full((days.size, len(COLUMNS)), np.nan)
@@ -274,26 +280,19 @@ def _of_given(
 
 
 @lru_cache(maxsize=8)
-def _of_file(
-    file: Path,
-    sha256: str,
-    kind: str | None,
-    columns: str | None,
-    pair: checks.Coordinates,
-    span: tuple[float, float],
-) -> PoleSeries:
+def _of_file(request: _Request, span: _Interval) -> PoleSeries:
     """Check the rows of a file; results are cached."""
-    name, rows, repairs = _parsed(file, sha256, kind, columns, pair)
+    name, rows, repairs = _parsed(request)
+    file, sha256, *_, pair = request
     if name == "c01" and pair is POLE_OFFSETS:
         rows = rows[~(rows[:, 1] < span[0])]
     return replace(_checked(file, name, rows, pair, span, [*repairs]), sha256=sha256)
 
 
 @lru_cache(maxsize=8)
-def _parsed(
-    file: Path, sha256: str, kind: str | None, columns: str | None, pair: checks.Coordinates
-) -> tuple[str, FloatArray, tuple[str, ...]]:
+def _parsed(request: _Request) -> tuple[str, FloatArray, tuple[str, ...]]:
     """Name of a table, its observed rows and their repairs; results are cached."""
+    file, _, kind, columns, pair = request
     sheet, table = pole_tables.split(file, kind, columns, _observed_pole)
     rows = pole_tables.rows_of(sheet := pole_tables.observed(sheet, table, pair), table, pair)
     repairs: list[str] = []
@@ -304,11 +303,11 @@ def _parsed(
 
 
 def _checked(
-    file: object,
+    file: Path | str,
     name: str,
     rows: FloatArray,
-    pair: checks.Coordinates,
-    span: tuple[float, float],
+    pair: Coordinates,
+    span: _Interval,
     repairs: list[str],
 ) -> PoleSeries:
     """Convert the rows of a table to a series; repair small defects and refuse large ones."""

@@ -218,21 +218,16 @@ def _meaning(
     layouts = [x for x in ORBITS if tables.fits(x.columns, sheet.width)]
     layout = sheet.layout if sheet.layout in layouts else None
     if text is not None:
-        meaning = tables.declared(text)
-        if not tables.fits(text, sheet.width):
-            problem = f"{sheet.width} columns, of which {len(meaning)} are named"
-            raise sheet.error(problem, f"name each, leave names empty, or end with '{tables.MORE}'")
+        meaning = sheet.as_declared(text)
     elif sheet.names and not layout:
         meaning = [tables.column_of(name) for name in sheet.names]
     else:
         layout = layout or next((x for x in layouts if not x.head), None)
         if layout is None:
             problem = f"{sheet.width} columns without names are no known layout"
-            raise sheet.error(
-                problem, "name them: columns='t (yr), e, inc (deg), varpi (deg), ...'"
-            )
+            raise sheet.error(problem, "name them, like columns='t (yr), k, h, q, p'")
         meaning = tables.declared(layout.columns)
-    sheet.refuse_other_lengths(text or "")
+    sheet.refuse_other_lengths()
     places = _chosen(sheet, meaning)
     units = {"t": time or "", **dict.fromkeys(_ANGLES, angles or "")}
     for name, place in places.items():
@@ -306,11 +301,11 @@ def _compare(
                 return math.nan
             vectors = rows.vectors()[1][near] @ axes - known.at(rows.times[near])[1].T
         except SeriesError:
-            return math.nan
+            return math.inf
         return float(np.median(np.linalg.norm(vectors, axis=1))) / SAME
 
     tables.refuse_other_meaning(sheet, meaning, _others(meaning), misfit)
-    if not declared and misfit(meaning) > 1:
+    if not declared and 1 < misfit(meaning) < math.inf:
         problem = f"as {tables.typed(meaning)} its perihelion is not that of {body} today"
         raise sheet.error(problem, "give the right columns='...', or body =")
 
@@ -411,7 +406,8 @@ class _Rows:
         """Unit of an angle, degrees or radians; by the largest value if it is not declared."""
         if self.units[name]:
             return self.units[name]
-        largest = max(float(np.max(np.abs(column))) for column in _turning(self))
+        turning = (self.columns[name] for name in _ANGLES[1:] if name in self.columns)
+        largest = max(float(np.max(np.abs(column))) for column in turning)
         if np.max(self.columns["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
             return "deg"
         if largest <= 2 * math.pi * (1 + 1e-6):
@@ -510,7 +506,6 @@ def _from_elements(rows: _Rows) -> tuple[FloatArray, FloatArray]:
     """Unit normals and eccentricity vectors from Keplerian elements, shape (n, 3) each."""
     e = rows.columns["e"]
     _check_eccentricity(rows, e)
-    _check_unit(rows)
     angle = {
         name: rows.columns[name] * ANGLES[rows.unit_of(name)]
         for name in _ANGLES
@@ -533,26 +528,6 @@ def _check_eccentricity(rows: _Rows, e: FloatArray) -> None:
     if wrong.any():
         row = int(np.argmax(wrong))
         raise rows.error(f"an eccentricity of {e[row]:g}", "it lies between 0 and 1", row)
-
-
-def _turning(rows: _Rows) -> list[FloatArray]:
-    """Columns of the angles that run through a full circle: node and perihelion."""
-    return [
-        column for name, column in rows.columns.items() if name in ("varpi", "argument", "node")
-    ]
-
-
-def _check_unit(rows: _Rows) -> None:
-    """Refuse an angle unit declared by the user (degrees, radians) that the values contradict."""
-    largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
-    jump = max(float(np.max(np.abs(np.diff(column)))) for column in _turning(rows))
-    steepest, angles = float(np.max(rows.columns["inc"])), rows.units["node"]
-    if angles == "rad" and (steepest > math.pi or 180 < jump <= 360.001):
-        problem = f"angles reach {max(largest, steepest):g}: these are degrees, not radians"
-        raise rows.error(problem, "give angles = 'deg'")
-    if angles == "deg" and largest <= 2 * math.pi * (1 + 1e-6) and jump > 1.5 * math.pi:
-        problem = f"angles go round at {largest:.4g}: these are radians, not degrees"
-        raise rows.error(problem, "give angles = 'rad'")
 
 
 def _check_moves(rows: _Rows, normal: FloatArray, eccentricity: FloatArray) -> None:

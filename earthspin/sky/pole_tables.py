@@ -82,7 +82,8 @@ def split(
     """
     sheet = tables.split(file, () if columns else published.POLE_BY_HEAD)
     if columns:
-        return sheet, PoleColumns(NAMED, _given(sheet, columns))
+        allowed = (*tables.DATES, *NAMES, "type")
+        return sheet, PoleColumns(NAMED, sheet.as_declared(columns, allowed))
     if layout := sheet.layout:
         sheet.refuse_other_lengths("" if layout.edges else layout.columns)
         return sheet, PoleColumns(layout.name, tables.declared(layout.columns))
@@ -96,23 +97,6 @@ def split(
             declared = kind is not None or layout is published.C01_BY_MJD
             return sheet, PoleColumns(layout.name, meaning, declared)
     raise _unknown(sheet, kind, known)
-
-
-def _given(sheet: Sheet, text: str) -> list[Column]:
-    """Columns as the user declares them."""
-    meaning = tables.declared(text)
-    allowed = (*tables.DATES, *NAMES, "type", "")
-    if unknown := [c.quantity for c in meaning if c.quantity not in allowed]:
-        problem = f"columns = '{text}': '{unknown[0]}' is not known"
-        raise sheet.error(problem, f"allowed: {', '.join(allowed[:-1])}")
-    if not tables.fits(text, sheet.width):
-        problem = f"{sheet.width} columns, of which {len(meaning)} are named"
-        raise sheet.error(problem, f"name each, leave names empty, or end with '{tables.MORE}'")
-    if without := [str(c) for c in meaning if c.quantity in NAMES and c.unit not in _UNITS]:
-        problem = f"columns = '{text}': '{without[0]}' has no unit of an angle"
-        raise sheet.error(problem, f"write it like '{without[0].split()[0]} (arcsec)'")
-    sheet.refuse_other_lengths(text)
-    return meaning
 
 
 def _by_names(sheet: Sheet) -> PoleColumns | None:
@@ -151,19 +135,14 @@ def _without_header(sheet: Sheet, kind: str | None) -> Sequence[published.Layout
 def _unknown(sheet: Sheet, kind: str | None, known: Callable[[], FloatArray]) -> SeriesError:
     """Build an error for a table of no known layout, with the columns to type."""
     if kind:
-        counts = dict.fromkeys(
-            str(len(tables.declared(layout.columns))) for layout in _without_header(sheet, kind)
-        )
-        problem = f"{sheet.width} columns; {' or '.join(counts) or 15} are expected in {kind}"
-        return sheet.error(problem, "is it another kind?", 0)
+        return sheet.error(f"its {sheet.width} columns are not those of {kind}", "another kind?", 0)
     guess = guessed(sheet, known())
     if sheet.names:
         names, words = tables.places(sheet.names, tables.DATES | NAMES), [BLANK] * sheet.width
         for name, place in names.items():
             words[place] = Column(name, "arcsec" if name in NAMES else "")
-        return sheet.not_understood(
-            guess or words, "" if guess else f"(x and y are needed), or {AS_PANDAS}"
-        )
+        more = "" if guess else f"(x and y are needed), or {AS_PANDAS}"
+        return sheet.not_understood(guess or words, more)
     example = [Column("mjd"), Column("x", "arcsec"), Column("y", "arcsec")]
     key = tables.typed(guess or example, more=not guess and sheet.width > len(example))
     remedy = f"{key} agrees with finals2000A" if guess else f"such as {key}; or {AS_PANDAS}"
@@ -200,7 +179,21 @@ def observed(sheet: Sheet, table: PoleColumns, pair: Coordinates, predicted: boo
         short = [len(row[error]) < end - begin for row in sheet.rows]
         if any(short):
             raise sheet.error("it ends early", "is the file cut off?", short.index(True))
+    if table.name == "EOP2":
+        late = tables.dates_of(sheet, table.columns) > _last_observed(sheet, pair)
+        sheet = sheet.only(~late)
     return sheet
+
+
+def _last_observed(sheet: Sheet, pair: Coordinates) -> float:
+    """Modified Julian date of the last observed row of EOP2, from its header."""
+    datum = re.search(rf"last {pair.datum}\D+([\d-]+)", sheet.words, re.IGNORECASE)
+    try:
+        last = datetime.date.fromisoformat(datum[1] if datum else "")
+    except ValueError:
+        problem = f"its header gives no date of the last observed {pair.words}"
+        raise sheet.error(problem, "take a file with its header") from None
+    return float((np.datetime64(last) - tables.MJD_0) / np.timedelta64(1, "D"))
 
 
 def rows_of(sheet: Sheet, table: PoleColumns, pair: Coordinates) -> FloatArray:
@@ -215,16 +208,7 @@ def rows_of(sheet: Sheet, table: PoleColumns, pair: Coordinates) -> FloatArray:
         for name in (x, y, f"e_{x}", f"e_{y}")
     ]
     mjd = tables.dates_of(sheet, table.columns)
-    rows = np.array([np.array(sheet.lines, dtype=float), mjd, *values]).T
-    if table.name != "EOP2":
-        return rows
-    datum = re.search(rf"last {pair.datum}\D+([\d-]+)", sheet.words, re.IGNORECASE)
-    try:
-        last = np.datetime64(datetime.date.fromisoformat(datum[1] if datum else ""))
-    except ValueError:
-        problem = f"its header gives no date of the last observed {pair.words}"
-        raise sheet.error(problem, "take a file with its header") from None
-    return rows[~(mjd > (last - tables.MJD_0) / np.timedelta64(1, "D"))]
+    return np.array([np.array(sheet.lines, dtype=float), mjd, *values]).T
 
 
 # --- comparison with finals2000A ------------------------------------------------------------------
@@ -292,15 +276,8 @@ def _others(columns: Sequence[Column]) -> Iterator[list[Column]]:
 
 def guessed(sheet: Sheet, known: FloatArray) -> list[Column] | None:
     """Meaning of columns by which x and y agree with the observed pole; None if none does."""
-    blank, options = (
-        [BLANK] * sheet.width,
-        [
-            Column(name, unit, sign)
-            for unit in _UNITS
-            for sign in (1.0, -1.0)
-            for name in ("x", "y")
-        ],
-    )
+    blank = [BLANK] * sheet.width
+    options = [Column(*one) for one in itertools.product(("x", "y"), _UNITS, (1.0, -1.0))]
     for names in (("mjd",), ("jd",), ("date",), ("year", "month", "day"), ("year",)):
         time = [*map(Column, names), *blank][: sheet.width]
         try:

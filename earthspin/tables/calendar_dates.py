@@ -37,17 +37,41 @@ def dates_of(sheet: Sheet, columns: Sequence[Column]) -> FloatArray:
     """
     cells = {c.quantity: place for place, c in enumerate(columns) if c.quantity in DATES}
     values = {name: sheet.column(place) for name, place in cells.items() if name != "date"}
-    if "jd" in values and "mjd" not in values:
-        values["mjd"] = values["jd"] - _MJD_OF_JD0
-    if "mjd" not in values and {"year", "month", "day"} <= {*values}:
-        return _from_calendar(sheet, values)
-    if "mjd" not in values and "year" in values:
-        return _from_besselian_years(sheet, values["year"])
-    if "mjd" not in values and "date" in cells:
-        return _from_text(sheet, cells["date"])
-    mjd = values["mjd"]
+    if "jd" in values:
+        values.setdefault("mjd", values["jd"] - _MJD_OF_JD0)
     if {"year", "month", "day"} <= {*values}:
-        _check_calendar(sheet, values, mjd)
+        return _from_calendar(sheet, values)
+    if "mjd" in values:
+        return values["mjd"]
+    if "year" in values:
+        return _from_besselian_years(sheet, values["year"])
+    if "date" in cells:
+        return _from_text(sheet, cells["date"])
+    raise sheet.error("it has no column of dates", f"name one of {', '.join(DATES)}")
+
+
+def _from_calendar(sheet: Sheet, values: dict[str, FloatArray]) -> FloatArray:
+    """Dates of calendar days, or the modified Julian dates beside them, which must be the same.
+
+    Of years with two digits, 73 is 1973, and 72 is 2072.
+    """
+    year, mjd = values["year"], values.get("mjd")
+    year = np.where(year < 100, year + 1900 + 100 * (year < 73), year)
+    days = []
+    for row, date in enumerate(zip(year, values["month"], values["day"], strict=True)):
+        try:
+            days.append(datetime.date(*map(int, date)).toordinal() - _FIRST_DAY)
+        except (ValueError, OverflowError):
+            problem = "there is no day {:g}-{:g}-{:g}".format(*date)
+            raise sheet.error(problem, "is a column lost?", row) from None
+    hours = values.get("hour", 0.0 if mjd is None else 24 * np.modf(mjd)[0])
+    expected = np.asarray(np.array(days) + hours / 24)
+    if mjd is None:
+        return expected
+    if not np.all(same := abs(mjd - expected) <= _SAME_DATE):
+        row = int(np.argmin(same))
+        problem = f"MJD {mjd[row]:.2f} differs from the calendar date, MJD {expected[row]:.2f}"
+        raise sheet.error(problem, "the two must agree; is a column lost?", row)
     return mjd
 
 
@@ -60,12 +84,6 @@ def _from_besselian_years(sheet: Sheet, year: FloatArray) -> FloatArray:
     return np.asarray(15019.81352 + (year - 1900.0) * 365.242198781)
 
 
-def _from_calendar(sheet: Sheet, values: dict[str, FloatArray]) -> FloatArray:
-    """Dates of calendar days, at the hour of the row."""
-    days = [_day(sheet, row, *date) for row, date in enumerate(_calendars(values))]
-    return np.array(days) + values.get("hour", 0.0) / 24
-
-
 def _from_text(sheet: Sheet, place: int) -> FloatArray:
     """Dates written as text, like 2020-01-31."""
     cells = [row[place].strip().removesuffix("Z").replace(" ", "T") for row in sheet.rows]
@@ -73,29 +91,3 @@ def _from_text(sheet: Sheet, place: int) -> FloatArray:
         return np.asarray((np.array(cells, dtype="M8[ms]") - MJD_0) / np.timedelta64(1, "D"))
     except ValueError:
         raise sheet.error("its dates are not understood", "write them like 2020-01-31") from None
-
-
-def _check_calendar(sheet: Sheet, values: dict[str, FloatArray], mjd: FloatArray) -> None:
-    """Refuse a modified Julian date that differs from the calendar date in its row."""
-    hours = values.get("hour", 24 * np.modf(mjd)[0])
-    for row, (date, hour, day) in enumerate(zip(_calendars(values), hours, mjd, strict=True)):
-        expected = _day(sheet, row, *date) + hour / 24
-        if not abs(day - expected) <= _SAME_DATE:
-            problem = f"MJD {day:.2f} differs from the calendar date, MJD {expected:.2f}"
-            raise sheet.error(problem, "the two must agree; is a column lost?", row)
-
-
-def _calendars(values: dict[str, FloatArray]) -> list[tuple[float, float, float]]:
-    """Year, month and day of each row. Of years with two digits, 73 is 1973, and 72 is 2072."""
-    year = values["year"]
-    year = np.where(year < 100, year + 1900 + 100 * (year < 73), year)
-    return [*zip(year, values["month"], values["day"], strict=True)]
-
-
-def _day(sheet: Sheet, row: int, year: float, month: float, day: float) -> int:
-    """Modified Julian date of the beginning of a calendar day."""
-    try:
-        return datetime.date(int(year), int(month), int(day)).toordinal() - _FIRST_DAY
-    except (ValueError, OverflowError):
-        problem = f"there is no day {year:g}-{month:g}-{day:g}"
-        raise sheet.error(problem, "is a column lost?", row) from None

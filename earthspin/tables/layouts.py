@@ -58,81 +58,50 @@ C01_BY_YEAR = (
 #: dX, dY, here as in the CSV.
 FINALS2000A = Layout(
     "finals2000A",
-    "year, month, day, mjd, type, x (arcsec), e_x (arcsec), y (arcsec), e_y (arcsec), type, "
-    "type, dx (mas), e_dx (mas), dy (mas), e_dy (mas)",
+    "year, month, day, mjd, type, x (arcsec), e_x (arcsec), y (arcsec), e_y (arcsec), type, type, "
+    "dx (mas), e_dx (mas), dy (mas), e_dy (mas)",
     row=r".{16}[IP]|[\d ]{6} \d{5}\.\d\d\s*$",
-    edges=tuple(
-        zip(
-            (0, 2, 4, 7, 16, 18, 27, 37, 46, 57, 95, 97, 106, 116, 125),
-            (2, 4, 6, 15, 17, 27, 36, 46, 55, 58, 96, 106, 115, 125, 134),
-            strict=True,
-        )
+    edges=(
+        (0, 2), (2, 4), (4, 6), (7, 15), (16, 17), (18, 27), (27, 36), (37, 46), (46, 55), (57, 58),
+        (95, 96), (97, 106), (106, 115), (116, 125), (125, 134),
     ),
+)  # fmt: skip
+_EOP2 = (
+    "mjd, x (mas), y (mas),, e_x (mas), e_y (mas),,,,, dx (mas), dy (mas), e_dx (mas), e_dy (mas)"
 )
+_EOXY = _IVS.format(offsets="dx (mas), dy (mas)", errors="e_dx (mas), e_dy (mas)")
 POLE_BY_HEAD = (
-    Layout(
-        "EOP2",
-        "mjd, x (mas), y (mas),, e_x (mas), e_y (mas),,,,, dx (mas), dy (mas), e_dx (mas), "
-        "e_dy (mas),,",
-        head=r"(?m)^\s*EOP2",
-    ),
-    Layout(
-        "EOP-All.txt",
-        f"year, month, day, mjd, {_XY},,,,, {_DXY},",
-        head="NUM_OBSERVED_POINTS",
-        until="^END OBSERVED",
-    ),
-    Layout(
-        "Bulletin B",
-        "year, month, day, mjd, x (mas), y (mas),, dx (mas), dy (mas), e_x (mas), e_y (mas),, "
-        "e_dx (mas), e_dy (mas)",
-        head=r"(?i)BULLETIN\s+B|B\s+U\s+L\s+L\s+E\s+T\s+I\s+N\s+B",
-        row=r"\s*\d{4}\s+\d+\s+\d+\s+\d{5}\s",
-        until=r"(?i)^\W*(2 - |preliminary)",
-    ),
-    Layout(
-        "IGS ERP",
-        "mjd, x (uas), y (uas),,, e_x (uas), e_y (uas), ...",
-        head=r"(?im)^\W*mjd\s+x-?pole\s+y-?pole\s+UT1",
-    ),
+    Layout("EOP2", f"{_EOP2},,", head=r"(?m)^\s*EOP2"),
+    Layout("EOP-All.txt", f"year, month, day, mjd, {_XY},,,,, {_DXY},", head="NUM_OBSERVED_POINTS",
+           until="^END OBSERVED"),
+    Layout("Bulletin B", "year, month, day, mjd, x (mas), y (mas),, dx (mas), dy (mas), e_x (mas), "
+           "e_y (mas),, e_dx (mas), e_dy (mas)",
+           head=r"(?i)BULLETIN\s+B\b|B\s+U\s+L\s+L\s+E\s+T\s+I\s+N\s+B\b",
+           row=r"\s*\d{4}\s+\d+\s+\d+\s+\d{5}\s", until=r"(?i)^\W*(2 - |preliminary)"),
+    Layout("IGS ERP", "mjd, x (uas), y (uas),,, e_x (uas), e_y (uas), ...",
+           head=r"(?im)^\W*mjd\s+x-?pole\s+y-?pole\s+UT1"),
     Layout("EOP-MOD", "jd, x (0.1 arcsec), y (0.1 arcsec), ...", head=r"(?m)^EOP-MOD Ver"),
-    Layout(
-        "IVS eoxy",
-        _IVS.format(offsets="dx (mas), dy (mas)", errors="e_dx (mas), e_dy (mas)"),
-        head=r"\.eoxy|%=IVS-EOP(?s:.*)\bdX\b",
-    ),
+    Layout("IVS eoxy", _EOXY, head=r"\.eoxy|%=IVS-EOP(?s:.*)\bdX\b"),
     Layout("IVS eops", _IVS.format(offsets=",", errors=","), head=r"\.eops|%=IVS-EOP"),
     FINALS2000A,
-)
+)  # fmt: skip
 
 # --- solutions of obliquity, eccentricity and precession ------------------------------------------
 
+_E, _OBLIQUITY, _VARPI = "eccentricity", "obliquity", "longitude_of_perihelion"
 SOLUTIONS = (
-    Layout("La2010, ZB18a", "epoch (kyr), eccentricity"),
-    Layout("ZB20a", "epoch (kyr), eccentricity,"),
-    Layout(
-        "La2004, La93", "epoch (kyr), eccentricity, obliquity (rad), longitude_of_perihelion (rad)"
-    ),
+    Layout("La2010, ZB18a", f"epoch (kyr), {_E}"),
+    Layout("ZB20a", f"epoch (kyr), {_E},"),
+    Layout("La2004, La93", f"epoch (kyr), {_E}, {_OBLIQUITY} (rad), {_VARPI} (rad)"),
     # files of snvec (with the angle of precession), and of paleoinsolation
-    Layout("snvec", "epoch (kyr), obliquity (rad),, climatic_precession"),
-    Layout(
-        "snvec",
-        "epoch (kyr), eccentricity, obliquity (rad),, longitude_of_perihelion (rad), "
-        "climatic_precession",
-    ),
-    Layout("ZB18a", "epoch (kyr), eccentricity, obliquity (deg), longitude_of_perihelion (deg),"),
-    Layout(
-        "Berger & Loutre 1991",
-        "epoch (kyr from 1950), eccentricity, longitude_of_perihelion (deg), obliquity (deg), "
-        "climatic_precession,,,,",
-        head=r"ECC\s+OMEGA\s+OBL\s+PREC",
-    ),
-    Layout(
-        "astrochron getLaskar",
-        "epoch (ka), longitude_of_perihelion (rad), obliquity (rad), eccentricity",
-        head=r"Time_ka\W+prec_angle_\w+\W+tilt_\w+\W+ecc_\w+",
-    ),
-)
+    Layout("snvec", f"epoch (kyr), {_OBLIQUITY} (rad),, climatic_precession"),
+    Layout("snvec", f"epoch (kyr), {_E}, {_OBLIQUITY} (rad),, {_VARPI} (rad), climatic_precession"),
+    Layout("ZB18a", f"epoch (kyr), {_E}, {_OBLIQUITY} (deg), {_VARPI} (deg),"),
+    Layout("Berger & Loutre 1991", f"epoch (kyr from 1950), {_E}, {_VARPI} (deg), "
+           f"{_OBLIQUITY} (deg), climatic_precession,,,,", head=r"ECC\s+OMEGA\s+OBL\s+PREC"),
+    Layout("astrochron getLaskar", f"epoch (ka), {_VARPI} (rad), {_OBLIQUITY} (rad), {_E}",
+           head=r"Time_ka\W+prec_angle_\w+\W+tilt_\w+\W+ecc_\w+"),
+)  # fmt: skip
 #: Its rows may all lie far from J2000.0, so that nothing is known of them; no other layout has as
 #: many columns.
 ASTROGEO22 = Layout("AstroGeo22", "epoch (Gyr ago),,,,,,, obliquity (deg),,,,,")
@@ -143,12 +112,9 @@ ORBITS = (
     Layout("HNBody", "t (d), a, e, inc, varpi, Omega"),
     Layout("La2010", "t (kyr), a, l, k, h, q, p"),
     Layout("HNBody", "t (d), a, e, inc, varpi, Omega,,"),
-    Layout(
-        "Mercury6",
-        "t (yr), a, e, inc (deg), omega (deg), Omega (deg), ...",
-        head=r"(?m)^\s*Time \(years\)\s+a\s+e\s+i\s+peri\s+node",
-    ),
-)
+    Layout("Mercury6", "t (yr), a, e, inc (deg), omega (deg), Omega (deg), ...",
+           head=r"(?m)^\s*Time \(years\)\s+a\s+e\s+i\s+peri\s+node"),
+)  # fmt: skip
 
 # --- effective angular momentum functions ---------------------------------------------------------
 

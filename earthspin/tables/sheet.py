@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from earthspin.errors import SeriesError
+from earthspin.errors import SeriesError, nearest
 from earthspin.numerics.arrays import Array, FloatArray
 from earthspin.tables import text as text_of
-from earthspin.tables.columns import Column, column_of, declared, written
+from earthspin.tables.columns import BLANK, MORE, Column, column_of, declared, fits, written
 from earthspin.tables.layouts import Layout
 from earthspin.units import COMMON, as_written, real_numbers, time_scale
 
@@ -100,7 +100,11 @@ class Sheet:
 
     def converted(self, place: int, column: Column, unit: str) -> FloatArray:
         """Return the numbers of a column in a unit."""
-        factor, origin = column.conversion(unit)
+        try:
+            factor, origin = column.conversion(unit)
+        except ValueError:
+            problem = f"the unit of '{column}' is not known"
+            raise self.error(problem, f"write it like '{column.quantity} ({unit})'") from None
         numbers = self.column(place)
         return as_written(numbers, factor, origin) if origin or column.is_time else factor * numbers
 
@@ -119,10 +123,27 @@ class Sheet:
         count = len(declared(columns)) if columns and not columns.endswith("...") else self.width
         for row, cells in enumerate(self.rows):
             if len(cells) != count:
-                cut = (
-                    "is the file cut off?" if row == len(self.rows) - 1 > 0 else "is a column lost?"
-                )
-                raise self.error(f"{len(cells)} columns; {count} are expected", cut, row)
+                last = row == len(self.rows) - 1 > 0
+                remedy = "is the file cut off?" if last else "is a column lost?"
+                raise self.error(f"{len(cells)} columns; {count} are expected", remedy, row)
+
+    def as_declared(self, text: str, allowed: Collection[str] = ()) -> list[Column]:
+        """Return the columns that the user declares, one for each column of the table.
+
+        Raises
+        ------
+        SeriesError
+            If a quantity is none of those that are allowed, or their number is another.
+        """
+        meaning = declared(text)
+        for name in (column.quantity for column in meaning):
+            if name and allowed and name not in allowed:
+                raise self.error(f"columns='{text}': '{name}' is unknown", nearest(name, allowed))
+        if not fits(text, self.width):
+            problem = f"{self.width} columns, of which {len(meaning)} are named"
+            raise self.error(problem, f"name each, leave names empty, or end with '{MORE}'")
+        self.refuse_other_lengths(text)
+        return [*meaning, *[BLANK] * (self.width - len(meaning))]
 
     def not_understood(self, columns: Sequence[Column], needed: str = "") -> SeriesError:
         """Build an error for a header that is not understood, with the columns to type."""
