@@ -14,8 +14,8 @@ import numpy as np
 from earthspin import tables
 from earthspin._lazy import xr
 from earthspin.engine.atomic_writes import as_path
-from earthspin.errors import SeriesError, Where
-from earthspin.numerics.arrays import FloatArray
+from earthspin.errors import Where
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.questions.long_term import LongTermSeries, long_term
 from earthspin.tables import BLANK, Column, Sheet
 from earthspin.tables.layouts import ASTROGEO22, SOLUTIONS
@@ -177,14 +177,16 @@ def _understood(sheet: Sheet) -> list[Column]:
     raise sheet.error(problem, f"name them{agreeing}" if share else remedy)
 
 
-def _converted(sheet: Sheet, meaning: Sequence[Column]) -> dict[str, FloatArray]:
+def _converted(
+    sheet: Sheet, meaning: Sequence[Column], rows: slice | BoolArray = slice(None)
+) -> dict[str, FloatArray]:
     """Columns of a solution by variable name, converted to the units of `long_term`."""
     data = {}
     for place, column in enumerate(meaning):
         name = column.quantity.replace("perigee", "perihelion")
         if not name:
             continue
-        data[name] = sheet.converted(place, column, QUANTITIES[name].units)
+        data[name] = sheet.converted(place, column, QUANTITIES[name].units, rows)
         data[name] = data[name] - 180.0 * (name != column.quantity)
         if not np.isfinite(data[name]).all():
             rest = [*meaning[:place], BLANK, *meaning[place + 1 :]]
@@ -209,17 +211,19 @@ def _known(body: str) -> dict[str, FloatArray]:
 def _misfit(sheet: Sheet, meaning: Sequence[Column], bodies: Sequence[str] = KNOWN) -> float:
     """Largest median difference from a known body in units of its bound; inf if none is known."""
     try:
-        data = _converted(sheet, meaning)
-    except SeriesError:
+        place = [column.quantity for column in meaning].index("epoch")
+        factor, origin = meaning[place].conversion("yr")
+        near = abs(factor * sheet.column(place) + origin) <= NEAR
+        data = _converted(sheet, meaning, near)
+    except ValueError:  # a column of text is one, too
         return math.inf
-    near = abs(data["epoch"]) <= NEAR
     names = [name for name in BOUNDS if name in data]
     if np.count_nonzero(near) < min(FEWEST, near.size) or not names:
         return math.inf
 
     def misfit(body: str, name: str) -> float:
         known = _known(body)
-        off = data[name][near] - np.interp(data["epoch"][near], known["epoch"], known[name])
+        off = data[name] - np.interp(data["epoch"], known["epoch"], known[name])
         off = (off + 180) % 360 - 180 if name == "longitude_of_perihelion" else off
         return float(np.median(abs(off))) / BOUNDS[name]
 

@@ -199,7 +199,7 @@ def read_orbit(
     meaning, declared = _meaning(sheet, columns, time, angles)
     rows = _Rows.of_sheet(sheet, meaning).in_order()
     _check_times(rows)
-    _compare(sheet, _with_angles(rows, meaning), declared, axes, body)
+    _compare(rows, declared, axes, body)
     table = _table(rows, body, axes, frame)
     return table if sheet.is_frame else replace(table, sha256=tables.checksum(Path(path)))
 
@@ -245,14 +245,6 @@ def _meaning(
     return meaning, named
 
 
-def _with_angles(rows: _Rows, meaning: list[Column]) -> list[Column]:
-    """Give all angles their unit, also where their size tells it."""
-    units = {rows.places[name]: rows.unit_of(name) for name in _ANGLES if name in rows.places}
-    return [
-        column._replace(unit=units.get(place, column.unit)) for place, column in enumerate(meaning)
-    ]
-
-
 def _chosen(sheet: Sheet, meaning: Sequence[Column]) -> dict[str, int]:
     """Return the column index of each orbital element, found by the column names."""
     names = [column.quantity for column in meaning]
@@ -278,9 +270,7 @@ def _by_words(name: str) -> Column:
     return Column(word, "yr" if word == "t" else "")
 
 
-def _compare(
-    sheet: Sheet, meaning: list[Column], declared: bool, axes: FloatArray, body: str
-) -> None:
+def _compare(given: _Rows, declared: bool, axes: FloatArray, body: str) -> None:
     """Compare an orbit around J2000.0 with that of the package, if there is one of the body.
 
     Raises
@@ -295,7 +285,7 @@ def _compare(
 
     def misfit(columns: Sequence[Column]) -> float:
         try:
-            rows = _Rows.of_sheet(sheet, columns)
+            rows = _Rows.of_sheet(given.sheet, columns)
             near = np.abs(rows.times) <= NEAR
             if np.count_nonzero(near) < FEWEST_NEAR:
                 return math.nan
@@ -304,10 +294,11 @@ def _compare(
             return math.inf
         return float(np.median(np.linalg.norm(vectors, axis=1))) / SAME
 
-    tables.refuse_other_meaning(sheet, meaning, _others(meaning), misfit)
+    meaning = given.meaning
+    tables.refuse_other_meaning(given.sheet, meaning, _others(meaning), misfit)
     if not declared and 1 < misfit(meaning) < math.inf:
         problem = f"as {tables.typed(meaning)} its perihelion is not that of {body} today"
-        raise sheet.error(problem, "give the right columns='...', or body =")
+        raise given.error(problem, "give the right columns='...', or body =")
 
 
 def _others(meaning: list[Column]) -> Iterator[list[Column]]:
@@ -365,55 +356,49 @@ class _Rows:
     Attributes
     ----------
     sheet : Sheet
+    meaning : list of Column
+        Meaning of the columns of the table, all angles with their units.
     columns : Table
-        Columns by the names used here, in their units.
-    places : dict of str to int
-        Place of each column in the table.
-    units : dict of str to str
-        Units of times and angles; angles without a unit are in degrees or radians by their size.
+        Columns by the names used here: times in the unit of the table, angles in radians.
+    unit : str
+        Unit of the times, d, yr or kyr.
     numbers : array of int
         Row of the table that each row was.
     """
 
     sheet: Sheet
+    meaning: list[Column]
     columns: Table
-    places: dict[str, int]
-    units: dict[str, str]
+    unit: str
     numbers: NDArray[np.int64]
 
     @classmethod
-    def of_sheet(cls, sheet: Sheet, meaning: Sequence[Column]) -> _Rows:
+    def of_sheet(cls, sheet: Sheet, columns: Sequence[Column]) -> _Rows:
         """Read the columns of orbital elements from a table."""
-        places = _chosen(sheet, meaning)
+        places, meaning = _chosen(sheet, columns), [*columns]
         data = {name: sheet.column(place) for name, place in places.items()}
-        units = {name: meaning[place].unit for name, place in places.items()}
-        scale = time_scale(units["t"])
-        if scale is None:
-            raise sheet.error(f"times in '{units['t']}'", "give a unit like d, yr, kyr or kyr ago")
-        if units["t"] not in TIMES:
-            data["t"], units["t"] = scale[0] * data["t"] + scale[1], "yr"
-        for name in _ANGLES:
-            if units.get(name, "") not in ("", *ANGLES):
-                raise sheet.error(f"{name} in '{units[name]}'", "give a unit, deg or rad")
-        return cls(sheet, data, places, units, np.arange(data["t"].size))
+        for name, column in data.items():
+            if not np.isfinite(column).all():
+                row = int(np.argmin(np.isfinite(column)))
+                raise sheet.error(f"{name} is not a number", "fill it, or leave out rows", row)
+        angles = {name: place for name, place in places.items() if name in _ANGLES}
+        if not all(meaning[place].unit for place in angles.values()):
+            unit = _unit_of(sheet, data)
+            for place in angles.values():
+                meaning[place] = meaning[place]._replace(unit=meaning[place].unit or unit)
+        if angles:
+            _check_unit(sheet, data, meaning[angles["node"]].unit)
+        data |= {name: sheet.converted(p, meaning[p], "rad") for name, p in angles.items()}
+        time = meaning[places["t"]]
+        if time.unit in TIMES:
+            return cls(sheet, meaning, data, time.unit, np.arange(data["t"].size))
+        data["t"] = sheet.converted(places["t"], time, "yr")
+        return cls(sheet, meaning, data, "yr", np.arange(data["t"].size))
 
     @property
     def times(self) -> FloatArray:
         """Times from J2000.0, s."""
-        return np.asarray(self.columns["t"] * TIMES[self.units["t"]])
-
-    def unit_of(self, name: str) -> str:
-        """Unit of an angle, degrees or radians; by the largest value if it is not declared."""
-        if self.units[name]:
-            return self.units[name]
-        turning = (self.columns[name] for name in _ANGLES[1:] if name in self.columns)
-        largest = max(float(np.max(np.abs(column))) for column in turning)
-        if np.max(self.columns["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
-            return "deg"
-        if largest <= 2 * math.pi * (1 + 1e-6):
-            return "rad"
-        problem = f"angles reach {largest:g}: degrees or radians that go on past a turn?"
-        raise self.error(problem, "say which: angles = 'deg' or 'rad'")
+        return np.asarray(self.columns["t"] * TIMES[self.unit])
 
     def vectors(self) -> tuple[FloatArray, FloatArray]:
         """Unit normals and eccentricity vectors, shape (n, 3) each."""
@@ -425,10 +410,6 @@ class _Rows:
 
     def in_order(self) -> _Rows:
         """Return the rows in ascending time; refuse gaps, repeated times and too few rows."""
-        for name, column in self.columns.items():
-            if not np.isfinite(column).all():
-                row = int(np.argmin(np.isfinite(column)))
-                raise self.error(f"{name} is not a number", "fill it, or leave out rows", row)
         t = self.columns["t"]
         if t.size < FEWEST:
             raise self.error(f"{t.size} rows are too few", f"give {FEWEST} or more")
@@ -473,7 +454,7 @@ def _table(rows: _Rows, body: str, axes: FloatArray, frame: object) -> OrbitTabl
 
 def _check_times(rows: _Rows) -> None:
     """Refuse times in another unit, and those without J2000.0."""
-    times, unit = rows.times, rows.units["t"]
+    times, unit = rows.times, rows.unit
     step = float(np.median(np.diff(times)))
     if not CLOSEST <= step <= FARTHEST:
         raise rows.error(
@@ -506,16 +487,13 @@ def _from_elements(rows: _Rows) -> tuple[FloatArray, FloatArray]:
     """Unit normals and eccentricity vectors from Keplerian elements, shape (n, 3) each."""
     e = rows.columns["e"]
     _check_eccentricity(rows, e)
-    angle = {
-        name: rows.columns[name] * ANGLES[rows.unit_of(name)]
-        for name in _ANGLES
-        if name in rows.columns
-    }
-    tilt, node = angle["inc"], angle["node"]
+    tilt, node = rows.columns["inc"], rows.columns["node"]
     if np.any((tilt < 0) | (tilt > math.pi)):
         row = int(np.argmax((tilt < 0) | (tilt > math.pi)))
         raise rows.error("an inclination lies between 0 and 180 degrees", "", row)
-    argument = angle["argument"] if "argument" in angle else angle["varpi"] - node
+    argument = (
+        rows.columns["argument"] if "argument" in rows.columns else rows.columns["varpi"] - node
+    )
     ci, si, cn, sn = np.cos(tilt), np.sin(tilt), np.cos(node), np.sin(node)
     cw, sw = np.cos(argument), np.sin(argument)
     normal = np.stack([si * sn, -si * cn, ci], axis=1)
@@ -528,6 +506,31 @@ def _check_eccentricity(rows: _Rows, e: FloatArray) -> None:
     if wrong.any():
         row = int(np.argmax(wrong))
         raise rows.error(f"an eccentricity of {e[row]:g}", "it lies between 0 and 1", row)
+
+
+def _unit_of(sheet: Sheet, data: Table) -> str:
+    """Detect from the largest value whether the angles in a table are in degrees or radians."""
+    turning = [data[name] for name in _ANGLES[1:] if name in data]
+    largest = max(float(np.max(np.abs(column))) for column in turning)
+    if np.max(data["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
+        return "deg"
+    if largest <= 2 * math.pi * (1 + 1e-6):
+        return "rad"
+    problem = f"angles reach {largest:g}: degrees or radians that go on past a turn?"
+    raise sheet.error(problem, "say which: angles = 'deg' or 'rad'")
+
+
+def _check_unit(sheet: Sheet, data: Table, unit: str) -> None:
+    """Refuse a declared unit of angles that the values contradict."""
+    turning = [data[name] for name in _ANGLES[1:] if name in data]
+    largest = max(float(np.max(np.abs(column))) for column in turning)
+    jump = max(float(np.max(np.abs(np.diff(column)), initial=0.0)) for column in turning)
+    if unit == "rad" and (np.max(data["inc"]) > math.pi or 180 < jump <= 360.001):
+        problem = f"angles reach {largest:g}: these are degrees, not radians"
+        raise sheet.error(problem, "give angles = 'deg'")
+    if unit == "deg" and largest <= 2 * math.pi * (1 + 1e-6) and jump > 1.5 * math.pi:
+        problem = f"angles go round at {largest:.4g}: these are radians, not degrees"
+        raise sheet.error(problem, "give angles = 'rad'")
 
 
 def _check_moves(rows: _Rows, normal: FloatArray, eccentricity: FloatArray) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from earthspin.errors import SeriesError, nearest
-from earthspin.numerics.arrays import Array, FloatArray
+from earthspin.numerics.arrays import Array, BoolArray, FloatArray
 from earthspin.tables import text as text_of
 from earthspin.tables.columns import BLANK, MORE, Column, column_of, declared, fits, written
 from earthspin.tables.layouts import Layout
@@ -45,6 +45,8 @@ class Sheet:
         Lines of text among the rows.
     layout : Layout or None
         Layout that the words above the rows name.
+    known : dict of int to array
+        Columns whose numbers are read already.
     """
 
     file: Path | str
@@ -54,6 +56,7 @@ class Sheet:
     lines: list[int] = field(default_factory=list)
     text: list[int] = field(default_factory=list)
     layout: Layout | None = None
+    known: dict[int, FloatArray] = field(default_factory=dict)
 
     @property
     def is_frame(self) -> bool:
@@ -77,15 +80,21 @@ class Sheet:
         """Return the table with a selection of its rows."""
         rows = [row for row, keep in zip(self.rows, kept, strict=True) if keep]
         lines = [line for line, keep in zip(self.lines, kept, strict=True) if keep]
-        return replace(self, rows=rows, lines=lines)
+        return replace(self, rows=rows, lines=lines, known={})
 
     def column(self, place: int) -> FloatArray:
         """Return the numbers of a column; cells without a number are nan."""
-        if self.is_frame:
-            try:
-                return real_numbers(self.rows[place])
-            except (TypeError, ValueError):
-                raise self.error(f"column '{self.names[place]}' holds more than numbers") from None
+        if place not in self.known:
+            self.known[place] = self._frame(place) if self.is_frame else self._numbers(place)
+        return self.known[place]
+
+    def _frame(self, place: int) -> FloatArray:
+        try:
+            return real_numbers(self.rows[place])
+        except (TypeError, ValueError):
+            raise self.error(f"column '{self.names[place]}' holds more than numbers") from None
+
+    def _numbers(self, place: int) -> FloatArray:
         cells = [row[place] for row in self.rows]
         try:
             return np.array(cells, dtype=float)
@@ -98,14 +107,16 @@ class Sheet:
         except ValueError as error:
             raise self.error(str(error), "a number is expected", row) from None
 
-    def converted(self, place: int, column: Column, unit: str) -> FloatArray:
-        """Return the numbers of a column in a unit."""
+    def converted(
+        self, place: int, column: Column, unit: str, rows: slice | BoolArray = slice(None)
+    ) -> FloatArray:
+        """Return the numbers of a column in a unit, in all or some rows."""
         try:
             factor, origin = column.conversion(unit)
         except ValueError:
             problem = f"the unit of '{column}' is not known"
             raise self.error(problem, f"write it like '{column.quantity} ({unit})'") from None
-        numbers = self.column(place)
+        numbers = self.column(place)[rows]
         return as_written(numbers, factor, origin) if origin or column.is_time else factor * numbers
 
     def refuse_text(self) -> None:
