@@ -17,7 +17,7 @@ from earthspin.engine.atomic_writes import as_path
 from earthspin.errors import Where
 from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.questions.long_term import LongTermSeries, long_term
-from earthspin.tables import BLANK, Column, Sheet
+from earthspin.tables import BLANK, Meaning, Sheet
 from earthspin.tables.layouts import ASTROGEO22, SOLUTIONS
 from earthspin.units import time_scale
 
@@ -45,9 +45,9 @@ BOUNDS = {"eccentricity": 0.0015, "obliquity": 0.1, "longitude_of_perihelion": 3
 BOUNDS |= dict.fromkeys(("climatic_precession", "coprecession"), 0.002)
 #: Meanings of columns and times that are tried for a message, never read.
 _OPTIONS = (
-    Column("eccentricity"), Column("climatic_precession"), Column("coprecession"),
+    Meaning("eccentricity"), Meaning("climatic_precession"), Meaning("coprecession"),
     *(
-        Column(name, unit)
+        Meaning(name, unit)
         for name in ("obliquity", "longitude_of_perihelion", _PERIGEE)
         for unit in ("deg", "rad")
     ),
@@ -154,7 +154,7 @@ def _in_order(sheet: Sheet, data: dict[str, FloatArray]) -> dict[str, FloatArray
     return data
 
 
-def _understood(sheet: Sheet) -> list[Column]:
+def _understood(sheet: Sheet) -> list[Meaning]:
     """Columns as the header or a layout declares them; one without a header must be confirmed."""
     if sheet.layout and tables.fits(sheet.layout.columns, sheet.width):
         return tables.declared(sheet.layout.columns)
@@ -178,7 +178,7 @@ def _understood(sheet: Sheet) -> list[Column]:
 
 
 def _converted(
-    sheet: Sheet, meaning: Sequence[Column], rows: slice | BoolArray = slice(None)
+    sheet: Sheet, meaning: Sequence[Meaning], rows: slice | BoolArray = slice(None)
 ) -> dict[str, FloatArray]:
     """Columns of a solution by variable name, converted to the units of `long_term`."""
     data = {}
@@ -208,7 +208,7 @@ def _known(body: str) -> dict[str, FloatArray]:
     return {name: past[name].values for name in ("epoch", *BOUNDS)}
 
 
-def _misfit(sheet: Sheet, meaning: Sequence[Column], bodies: Sequence[str] = KNOWN) -> float:
+def _misfit(sheet: Sheet, meaning: Sequence[Meaning], bodies: Sequence[str] = KNOWN) -> float:
     """Largest median difference from a known body in units of its bound; inf if none is known."""
     try:
         place = [column.quantity for column in meaning].index("epoch")
@@ -232,18 +232,18 @@ def _misfit(sheet: Sheet, meaning: Sequence[Column], bodies: Sequence[str] = KNO
 
 def _guesses(
     sheet: Sheet, places: Sequence[int], time: int = 0, unit: str = ""
-) -> Iterator[tuple[float, list[Column]]]:
+) -> Iterator[tuple[float, list[Meaning]]]:
     """Meanings of columns that agree with a known body: share of the columns, and the meaning."""
     blank = [BLANK] * sheet.width
     units = dict.fromkeys([unit, *_TIMES] if unit else _TIMES)
-    times = [[*blank[:time], Column("epoch", u), *blank[time + 1 :]] for u in units]
+    times = [[*blank[:time], Meaning("epoch", u), *blank[time + 1 :]] for u in units]
     for body in KNOWN:
         yield tables.guessed(
             blank, places, times, _OPTIONS, partial(_misfit, sheet, bodies=(body,))
         )
 
 
-def _others(sheet: Sheet, meaning: Sequence[Column]) -> Iterator[list[Column]]:
+def _others(sheet: Sheet, meaning: Sequence[Meaning]) -> Iterator[list[Meaning]]:
     """Other meanings of all columns that can be compared."""
     names = [column.quantity for column in meaning]
     compared = (*BOUNDS, _PERIGEE)
@@ -258,7 +258,7 @@ def _others(sheet: Sheet, meaning: Sequence[Column]) -> Iterator[list[Column]]:
             yield kept
 
 
-def _suggested(sheet: Sheet) -> list[Column]:
+def _suggested(sheet: Sheet) -> list[Meaning]:
     """Columns to type for a header that is not understood, by its numbers and words."""
     by_words = [_by_words(sheet, place) for place in range(sheet.width)]
     times = [place for place, column in enumerate(by_words) if column.quantity == "epoch"]
@@ -266,22 +266,22 @@ def _suggested(sheet: Sheet) -> list[Column]:
     places = [place for place in range(sheet.width) if place != time]
     _, meaning = max(_guesses(sheet, places, time, unit), key=lambda guess: guess[0])
     if not meaning[time].quantity:
-        meaning[time] = Column("epoch", unit)
+        meaning[time] = Meaning("epoch", unit)
     for place, column in enumerate(by_words):
         if column.quantity not in {c.quantity for c in meaning} and not meaning[place].quantity:
             meaning[place] = column
     return meaning
 
 
-def _by_words(sheet: Sheet, place: int) -> Column:
+def _by_words(sheet: Sheet, place: int) -> Meaning:
     """Meaning of a column by the words of its header."""
     words = sheet.names[place]
     name = next((name for pattern, name in _WORDS.items() if re.search(pattern, words, re.I)), "")
     if name == "epoch":
         sense = re.search(r"BP|ago|b2k|(before|after|from) (present|1950|2000)", words, re.I)
         unit = next((u for u in re.findall(r"[A-Za-z]+", words) if time_scale(u)), "kyr")
-        return Column(name, f"{unit} {sense[0]}" if sense else unit)
+        return Meaning(name, f"{unit} {sense[0]}" if sense else unit)
     if name and QUANTITIES[name.replace("perigee", "perihelion")].units == "deg":
         with_numbers = np.nanmax(abs(sheet.column(place)), initial=0.0)
-        return Column(name, "rad" if with_numbers < 7 else "deg")
-    return Column(name)
+        return Meaning(name, "rad" if with_numbers < 7 else "deg")
+    return Meaning(name)

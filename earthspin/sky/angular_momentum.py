@@ -17,7 +17,7 @@ import numpy as np
 from earthspin import tables
 from earthspin.errors import SeriesError, nearest
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.tables import Column, Sheet
+from earthspin.tables import Meaning, Sheet
 from earthspin.tables.layouts import ANGULAR_MOMENTUM
 
 #: Components, by the word in the file name.
@@ -224,7 +224,7 @@ def _rows(file: Path, columns: str | None) -> list[_Row]:
     return [_Row(file, *row) for row in zip(sheet.lines, mjd, *terms, strict=True)]
 
 
-def _meaning(sheet: Sheet, text: str | None) -> list[Column]:
+def _meaning(sheet: Sheet, text: str | None) -> list[Meaning]:
     """Columns of a file: as declared, or those of the common layout with as many.
 
     Raises
@@ -242,7 +242,7 @@ def _meaning(sheet: Sheet, text: str | None) -> list[Column]:
         raise sheet.error(f"{sheet.width} columns", remedy, 0)
     if dates and meaning[dates["mjd"]].quantity != "mjd":
         words = [tables.BLANK] * sheet.width
-        words[dates["mjd"]] = Column("mjd")
+        words[dates["mjd"]] = Meaning("mjd")
         raise sheet.not_understood(words)
     sheet.refuse_other_lengths()
     return meaning

@@ -31,7 +31,7 @@ from earthspin.sky.pole_rows import (
     Coordinates,
     day_of,
 )
-from earthspin.tables import Column, Sheet
+from earthspin.tables import Meaning, Sheet
 
 #: J2000.0 as a modified Julian date.
 MJD = J2000_JD - 2400000.5
@@ -274,7 +274,7 @@ def _of_given(given: GivenSeries, pair: Coordinates, span: _Interval) -> PoleSer
     rows = checks.complete(_GIVEN, rows, [], repairs)
     if pair is POLAR_MOTION:
         sheet = Sheet(tables.FRAME, "", ["x", "y"], [1e3 * rows[:, 2], 1e3 * rows[:, 3]])
-        meaning = pole_tables.PoleColumns(_GIVEN, [Column("x", "mas"), Column("y", "mas")])
+        meaning = pole_tables.PoleColumns(_GIVEN, [Meaning("x", "mas"), Meaning("y", "mas")])
         pole_tables.check(sheet, meaning, rows[:, 1], _observed_pole())
     return _checked(_GIVEN, _GIVEN, rows, pair, span, repairs)
 

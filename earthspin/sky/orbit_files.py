@@ -32,7 +32,7 @@ from earthspin.errors import SeriesError, Where, nearest, no_plain_file
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.orbit_table import OrbitTable, fitted, load, shipped
 from earthspin.sky.poles import direction
-from earthspin.tables import Column, Sheet
+from earthspin.tables import Meaning, Sheet
 from earthspin.tables.layouts import ORBITS
 from earthspin.units import real_numbers, time_scale
 
@@ -209,7 +209,7 @@ def read_orbit(
 
 def _meaning(
     sheet: Sheet, text: str | None, time: str | None, angles: str | None
-) -> tuple[list[Column], bool]:
+) -> tuple[list[Meaning], bool]:
     """Columns with their units, and whether they are declared, and not told by their number.
 
     They are declared by the user, by the header, or by a layout that the header names.
@@ -240,12 +240,12 @@ def _meaning(
                 raise sheet.error(problem, f"leave out {key} = {known!r}")
             meaning[place] = meaning[place]._replace(unit=known)
         elif name == "t" and not unit:
-            meaning[place] = Column("t", "kyr" if "k" in places else "d")
+            meaning[place] = Meaning("t", "kyr" if "k" in places else "d")
     named = bool(text or sheet.names or (layout and layout.head))
     return meaning, named
 
 
-def _chosen(sheet: Sheet, meaning: Sequence[Column]) -> dict[str, int]:
+def _chosen(sheet: Sheet, meaning: Sequence[Meaning]) -> dict[str, int]:
     """Return the column index of each orbital element, found by the column names."""
     names = [column.quantity for column in meaning]
     places = tables.places(names, NAMES)
@@ -264,10 +264,10 @@ def _chosen(sheet: Sheet, meaning: Sequence[Column]) -> dict[str, int]:
     return {name: places[name] for name in required}
 
 
-def _by_words(name: str) -> Column:
+def _by_words(name: str) -> Meaning:
     """Meaning of a column by the words of its header; blank if they are not known."""
     word = next((m.expand(q) for p, q in _WORDS.items() if (m := re.search(p, name, re.I))), "")
-    return Column(word, "yr" if word == "t" else "")
+    return Meaning(word, "yr" if word == "t" else "")
 
 
 def _compare(given: _Rows, declared: bool, axes: FloatArray, body: str) -> None:
@@ -283,7 +283,7 @@ def _compare(given: _Rows, declared: bool, axes: FloatArray, body: str) -> None:
     if known is None:
         return
 
-    def misfit(columns: Sequence[Column]) -> float:
+    def misfit(columns: Sequence[Meaning]) -> float:
         try:
             rows = _Rows.of_sheet(given.sheet, columns)
             near = np.abs(rows.times) <= NEAR
@@ -301,7 +301,7 @@ def _compare(given: _Rows, declared: bool, axes: FloatArray, body: str) -> None:
         raise given.error(problem, "give the right columns='...', or body =")
 
 
-def _others(meaning: list[Column]) -> Iterator[list[Column]]:
+def _others(meaning: list[Meaning]) -> Iterator[list[Meaning]]:
     """Other meanings: of times, of angles, argument for longitude, and exchanged components."""
     unit = next(column.unit for column in meaning if column.quantity == "t")
     units = dict.fromkeys([unit, *TIMES, *(f"{word} ago" for word in TIMES)])
@@ -356,7 +356,7 @@ class _Rows:
     Attributes
     ----------
     sheet : Sheet
-    meaning : list of Column
+    meaning : list of Meaning
         Meaning of the columns of the table, all angles with their units.
     columns : Table
         Columns by the names used here: times in the unit of the table, angles in radians.
@@ -367,13 +367,13 @@ class _Rows:
     """
 
     sheet: Sheet
-    meaning: list[Column]
+    meaning: list[Meaning]
     columns: Table
     unit: str
     numbers: NDArray[np.int64]
 
     @classmethod
-    def of_sheet(cls, sheet: Sheet, columns: Sequence[Column]) -> _Rows:
+    def of_sheet(cls, sheet: Sheet, columns: Sequence[Meaning]) -> _Rows:
         """Read the columns of orbital elements from a table."""
         places, meaning = _chosen(sheet, columns), [*columns]
         data = {name: sheet.column(place) for name, place in places.items()}

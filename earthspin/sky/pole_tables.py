@@ -19,7 +19,7 @@ from earthspin import tables
 from earthspin.errors import SeriesError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.pole_rows import Coordinates
-from earthspin.tables import BLANK, Column, Sheet
+from earthspin.tables import BLANK, Meaning, Sheet
 from earthspin.tables import layouts as published
 
 #: Names of columns in headers, in lower case.
@@ -50,13 +50,13 @@ class PoleColumns(NamedTuple):
     Attributes
     ----------
     name : str
-    columns : list of Column
+    columns : list of Meaning
     declared : bool
         Whether the user, a header or a known layout declares them, and not their number.
     """
 
     name: str
-    columns: list[Column]
+    columns: list[Meaning]
     declared: bool = True
 
 
@@ -106,19 +106,19 @@ def _by_names(sheet: Sheet) -> PoleColumns | None:
     dated = {"mjd", "jd", "date", "year"} & {*dates}
     if not (dated and {"x", "y", "dx", "dy"} & {*places}):
         return None
-    columns = [Column("type") if "type" in n.lower() else BLANK for n in sheet.names]
+    columns = [Meaning("type") if "type" in n.lower() else BLANK for n in sheet.names]
     final = any("final" in row for row in sheet.rows)
     for quantity, place in places.items():
         unit = "mas" if final and quantity in ("dx", "dy", "e_dx", "e_dy") else "arcsec"
-        columns[place] = Column(quantity, tables.column_of(sheet.names[place]).unit or unit)
+        columns[place] = Meaning(quantity, tables.column_of(sheet.names[place]).unit or unit)
     for quantity, place in dates.items():
-        columns[place] = Column(quantity)
+        columns[place] = Meaning(quantity)
     names = {NAMED: True, "c04.csv": "x_pole" in sheet.names, "EOP-All.csv": "DAT" in sheet.names}
     names |= {"finals2000A.csv": final, "c01": {"year"} == {*dates}}
     return PoleColumns(next(n for n in reversed(names) if names[n]), columns)
 
 
-def _without_header(sheet: Sheet, kind: str | None) -> Sequence[published.Layout]:
+def _without_header(sheet: Sheet, kind: str | None) -> Sequence[published.TableLayout]:
     """Layouts without a header that are possible by the first cell of a table, or of a kind."""
     if kind == "c04":
         return published.C04
@@ -140,10 +140,10 @@ def _unknown(sheet: Sheet, kind: str | None, known: Callable[[], FloatArray]) ->
     if sheet.names:
         names, words = tables.places(sheet.names, tables.DATES | NAMES), [BLANK] * sheet.width
         for name, place in names.items():
-            words[place] = Column(name, "arcsec" if name in NAMES else "")
+            words[place] = Meaning(name, "arcsec" if name in NAMES else "")
         more = "" if guess else f"(x and y are needed), or {AS_PANDAS}"
         return sheet.not_understood(guess or words, more)
-    example = [Column("mjd"), Column("x", "arcsec"), Column("y", "arcsec")]
+    example = [Meaning("mjd"), Meaning("x", "arcsec"), Meaning("y", "arcsec")]
     key = tables.typed(guess or example, more=not guess and sheet.width > len(example))
     remedy = f"{key} agrees with finals2000A" if guess else f"such as {key}; or {AS_PANDAS}"
     return sheet.error("it is none of the known tables", f"name its columns: {remedy}")
@@ -181,7 +181,7 @@ def observed(sheet: Sheet, table: PoleColumns, pair: Coordinates, predicted: boo
             raise sheet.error("it ends early", "is the file cut off?", short.index(True))
     if table.name == "EOP2":
         late = tables.dates_of(sheet, table.columns) > _last_observed(sheet, pair)
-        sheet = sheet.only(~late)
+        sheet = sheet.only((~late).tolist())
     return sheet
 
 
@@ -234,7 +234,7 @@ def check(sheet: Sheet, table: PoleColumns, mjd: FloatArray, known: FloatArray) 
         The message has the other meaning.
     """
 
-    def misfit(columns: Sequence[Column]) -> float:
+    def misfit(columns: Sequence[Meaning]) -> float:
         return _misfit(sheet, mjd, columns, known)
 
     tables.refuse_other_meaning(sheet, table.columns, _others(table.columns), misfit)
@@ -245,7 +245,7 @@ def check(sheet: Sheet, table: PoleColumns, mjd: FloatArray, known: FloatArray) 
         raise sheet.error(f"{problem} finals2000A (median)", remedy)
 
 
-def _misfit(sheet: Sheet, mjd: FloatArray, columns: Sequence[Column], known: FloatArray) -> float:
+def _misfit(sheet: Sheet, mjd: FloatArray, columns: Sequence[Meaning], known: FloatArray) -> float:
     """Median distance of x and y, or of one of them, from the observed pole over its bound.
 
     It is nan without common days.
@@ -262,7 +262,7 @@ def _misfit(sheet: Sheet, mjd: FloatArray, columns: Sequence[Column], known: Flo
     return float(np.nanmedian(np.hypot.reduce(off))) / SAME_POLE if off else math.nan
 
 
-def _others(columns: Sequence[Column]) -> Iterator[list[Column]]:
+def _others(columns: Sequence[Meaning]) -> Iterator[list[Meaning]]:
     """Other meanings of x and y: exchanged, of the other sign, in other units."""
     exchange = {"x": "y", "y": "x", "e_x": "e_y", "e_y": "e_x"}
     angles = [column.unit for column in columns if column.quantity == "x"]
@@ -274,18 +274,18 @@ def _others(columns: Sequence[Column]) -> Iterator[list[Column]]:
                 yield [c._replace(sign=c.sign * sign.get(c.quantity, 1.0)) for c in new]
 
 
-def guessed(sheet: Sheet, known: FloatArray) -> list[Column] | None:
+def guessed(sheet: Sheet, known: FloatArray) -> list[Meaning] | None:
     """Meaning of columns by which x and y agree with the observed pole; None if none does."""
     blank = [BLANK] * sheet.width
-    options = [Column(*one) for one in itertools.product(("x", "y"), _UNITS, (1.0, -1.0))]
+    options = [Meaning(*one) for one in itertools.product(("x", "y"), _UNITS, (1.0, -1.0))]
     for names in (("mjd",), ("jd",), ("date",), ("year", "month", "day"), ("year",)):
-        time = [*map(Column, names), *blank][: sheet.width]
+        time = [*map(Meaning, names), *blank][: sheet.width]
         try:
             mjd = tables.dates_of(sheet, time)
         except (SeriesError, IndexError):
             continue
 
-        def misfit(columns: Sequence[Column], mjd: FloatArray = mjd) -> float:
+        def misfit(columns: Sequence[Meaning], mjd: FloatArray = mjd) -> float:
             try:
                 return _misfit(sheet, mjd, columns, known)
             except (SeriesError, IndexError):  # text, or rows of different length

@@ -4,7 +4,7 @@ from earthspin.tables.calendar_dates import DATES, MJD_0, dates_of
 from earthspin.tables.columns import (
     BLANK,
     MORE,
-    Column,
+    Meaning,
     column_of,
     declared,
     fits,
@@ -17,7 +17,7 @@ from earthspin.tables.sheet import FRAME, Sheet, is_frame, of_frame, split, type
 from earthspin.tables.text import checksum, is_number, is_table, lines_of
 
 __all__ = [
-    "BLANK", "DATES", "FRAME", "MJD_0", "MORE", "Column", "Sheet", "checksum", "column_of",
+    "BLANK", "DATES", "FRAME", "MJD_0", "MORE", "Meaning", "Sheet", "checksum", "column_of",
     "dates_of", "declared", "fits", "guessed", "is_frame", "is_number", "is_table", "lines_of",
     "of_frame",
     "places", "refuse_other_meaning", "split", "typed", "with_words", "written",

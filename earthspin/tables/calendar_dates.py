@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from earthspin.numerics.arrays import FloatArray
-from earthspin.tables.columns import Column
+from earthspin.tables.columns import Meaning
 from earthspin.tables.sheet import Sheet
 
 #: Columns of dates, and their names in headers, in lower case.
@@ -27,7 +27,7 @@ _SAME_DATE = 2e-3
 _FIRST_YEAR, _LAST_YEAR = 1800, 2200
 
 
-def dates_of(sheet: Sheet, columns: Sequence[Column]) -> FloatArray:
+def dates_of(sheet: Sheet, columns: Sequence[Meaning]) -> FloatArray:
     """Modified Julian dates of rows; refuse a row whose calendar date differs from its MJD.
 
     Raises

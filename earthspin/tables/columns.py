@@ -20,7 +20,7 @@ _MULTIPLES = {"uas": ("mas", 1e-3), "0.1 arcsec": ("arcsec", 0.1)}
 MORE = "..."
 
 
-class Column(NamedTuple):
+class Meaning(NamedTuple):
     """Meaning of a column; a column without a quantity is not read.
 
     Attributes
@@ -69,26 +69,26 @@ class Column(NamedTuple):
         return self.sign * factor, 0.0
 
 
-BLANK = Column("")
+BLANK = Meaning("")
 
 
-def declared(text: str) -> list[Column]:
+def declared(text: str) -> list[Meaning]:
     """Split a declaration into columns; ``...`` at its end is ignored."""
     cells = text.strip().removesuffix(MORE).rstrip(" ,") if text.strip().endswith(MORE) else text
     return [column_of(cell) for cell in cells.split(",")]
 
 
-def column_of(cell: str) -> Column:
+def column_of(cell: str) -> Meaning:
     """Read the declaration of one column, or its name in a header, like ``PM_x [mas]``."""
     name, unit = re.fullmatch(r"([^(\[]*)(.*)", cell.strip(), re.DOTALL).groups()  # type: ignore[union-attr]
     unit = unit.strip("()[] ")
     name = name.strip()
-    return Column(
+    return Meaning(
         name.removeprefix("-"), _SPELLINGS.get(unit, unit), -1.0 if name[:1] == "-" else 1.0
     )
 
 
-def written(columns: Iterable[Column], more: bool = False) -> str:
+def written(columns: Iterable[Meaning], more: bool = False) -> str:
     """Return the declaration of columns, the inverse of `declared`."""
     cells = [*map(str, columns), *[MORE] * more]
     return re.sub(r", (?=,|$)", ",", ", ".join(cells)).rstrip()
@@ -120,7 +120,7 @@ def places(names: Sequence[str], vocabulary: Mapping[str, Sequence[str]]) -> dic
     return found
 
 
-def with_words(columns: Sequence[Column], words: Mapping[str, str]) -> list[Column]:
+def with_words(columns: Sequence[Meaning], words: Mapping[str, str]) -> list[Meaning]:
     """Replace quantities and units by others, such as ``{"deg": "rad"}``."""
     return [
         column._replace(

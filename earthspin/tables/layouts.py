@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 
-class Layout(NamedTuple):
+class TableLayout(NamedTuple):
     """Layout of published files.
 
     Attributes
@@ -43,20 +43,22 @@ _IVS = f"mjd, {_XY},, {{offsets}}, {_ERRORS},, {{errors}}, ..."
 _C01_YEAR = "year, x (arcsec), e_x (arcsec), y (arcsec), e_y (arcsec)"
 #: Tables by Besselian years and of C04 without a header, told apart by their first cell.
 C04 = (
-    Layout("c04", f"year, month, day, mjd, {_XY},,, {_DXY}, {_ERRORS},,, {_OFFSET_ERRORS}"),
-    Layout(
+    TableLayout("c04", f"year, month, day, mjd, {_XY},,, {_DXY}, {_ERRORS},,, {_OFFSET_ERRORS}"),
+    TableLayout(
         "c04", f"year, month, day, hour, mjd, {_XY},, {_DXY},,,, {_ERRORS},, {_OFFSET_ERRORS},,,"
     ),
 )
-C01_BY_MJD = Layout("c01", f"mjd, {_XY},, {_DXY}, {_ERRORS},, {_OFFSET_ERRORS},,,,,,,,,,,,,,,,,,")
+C01_BY_MJD = TableLayout(
+    "c01", f"mjd, {_XY},, {_DXY}, {_ERRORS},, {_OFFSET_ERRORS},,,,,,,,,,,,,,,,,,"
+)
 C01_BY_YEAR = (
-    Layout("c01", f"{_C01_YEAR},,, dx (arcsec), e_dx (arcsec), dy (arcsec), e_dy (arcsec)"),
-    Layout("c01", f"{_C01_YEAR}, ..."),
-    Layout("c01", _C01_YEAR),
+    TableLayout("c01", f"{_C01_YEAR},,, dx (arcsec), e_dx (arcsec), dy (arcsec), e_dy (arcsec)"),
+    TableLayout("c01", f"{_C01_YEAR}, ..."),
+    TableLayout("c01", _C01_YEAR),
 )
 #: Of the columns "type" of finals2000A, "I" if observed and "P" if predicted, the third belongs to
 #: dX, dY, here as in the CSV.
-FINALS2000A = Layout(
+FINALS2000A = TableLayout(
     "finals2000A",
     "year, month, day, mjd, type, x (arcsec), e_x (arcsec), y (arcsec), e_y (arcsec), type, type, "
     "dx (mas), e_dx (mas), dy (mas), e_dy (mas)",
@@ -69,20 +71,23 @@ FINALS2000A = Layout(
 _EOP2 = (
     "mjd, x (mas), y (mas),, e_x (mas), e_y (mas),,,,, dx (mas), dy (mas), e_dx (mas), e_dy (mas)"
 )
+_BULLETIN_B = (
+    "year, month, day, mjd, x (mas), y (mas),, dx (mas), dy (mas), e_x (mas), e_y (mas),, "
+    "e_dx (mas), e_dy (mas)"
+)
 _EOXY = _IVS.format(offsets="dx (mas), dy (mas)", errors="e_dx (mas), e_dy (mas)")
 POLE_BY_HEAD = (
-    Layout("EOP2", f"{_EOP2},,", head=r"(?m)^\s*EOP2"),
-    Layout("EOP-All.txt", f"year, month, day, mjd, {_XY},,,,, {_DXY},", head="NUM_OBSERVED_POINTS",
-           until="^END OBSERVED"),
-    Layout("Bulletin B", "year, month, day, mjd, x (mas), y (mas),, dx (mas), dy (mas), e_x (mas), "
-           "e_y (mas),, e_dx (mas), e_dy (mas)",
-           head=r"(?i)BULLETIN\s+B\b|B\s+U\s+L\s+L\s+E\s+T\s+I\s+N\s+B\b",
-           row=r"\s*\d{4}\s+\d+\s+\d+\s+\d{5}\s", until=r"(?i)^\W*(2 - |preliminary)"),
-    Layout("IGS ERP", "mjd, x (uas), y (uas),,, e_x (uas), e_y (uas), ...",
-           head=r"(?im)^\W*mjd\s+x-?pole\s+y-?pole\s+UT1"),
-    Layout("EOP-MOD", "jd, x (0.1 arcsec), y (0.1 arcsec), ...", head=r"(?m)^EOP-MOD Ver"),
-    Layout("IVS eoxy", _EOXY, head=r"\.eoxy|%=IVS-EOP(?s:.*)\bdX\b"),
-    Layout("IVS eops", _IVS.format(offsets=",", errors=","), head=r"\.eops|%=IVS-EOP"),
+    TableLayout("EOP2", f"{_EOP2},,", head=r"(?m)^\s*EOP2"),
+    TableLayout("EOP-All.txt", f"year, month, day, mjd, {_XY},,,,, {_DXY},",
+                head="NUM_OBSERVED_POINTS", until="^END OBSERVED"),
+    TableLayout("Bulletin B", _BULLETIN_B,
+                head=r"(?i)BULLETIN\s+B\b|B\s+U\s+L\s+L\s+E\s+T\s+I\s+N\s+B\b",
+                row=r"\s*\d{4}\s+\d+\s+\d+\s+\d{5}\s", until=r"(?i)^\W*(2 - |preliminary)"),
+    TableLayout("IGS ERP", "mjd, x (uas), y (uas),,, e_x (uas), e_y (uas), ...",
+                head=r"(?im)^\W*mjd\s+x-?pole\s+y-?pole\s+UT1"),
+    TableLayout("EOP-MOD", "jd, x (0.1 arcsec), y (0.1 arcsec), ...", head=r"(?m)^EOP-MOD Ver"),
+    TableLayout("IVS eoxy", _EOXY, head=r"\.eoxy|%=IVS-EOP(?s:.*)\bdX\b"),
+    TableLayout("IVS eops", _IVS.format(offsets=",", errors=","), head=r"\.eops|%=IVS-EOP"),
     FINALS2000A,
 )  # fmt: skip
 
@@ -90,35 +95,36 @@ POLE_BY_HEAD = (
 
 _E, _OBLIQUITY, _VARPI = "eccentricity", "obliquity", "longitude_of_perihelion"
 SOLUTIONS = (
-    Layout("La2010, ZB18a", f"epoch (kyr), {_E}"),
-    Layout("ZB20a", f"epoch (kyr), {_E},"),
-    Layout("La2004, La93", f"epoch (kyr), {_E}, {_OBLIQUITY} (rad), {_VARPI} (rad)"),
+    TableLayout("La2010, ZB18a", f"epoch (kyr), {_E}"),
+    TableLayout("ZB20a", f"epoch (kyr), {_E},"),
+    TableLayout("La2004, La93", f"epoch (kyr), {_E}, {_OBLIQUITY} (rad), {_VARPI} (rad)"),
     # files of snvec (with the angle of precession), and of paleoinsolation
-    Layout("snvec", f"epoch (kyr), {_OBLIQUITY} (rad),, climatic_precession"),
-    Layout("snvec", f"epoch (kyr), {_E}, {_OBLIQUITY} (rad),, {_VARPI} (rad), climatic_precession"),
-    Layout("ZB18a", f"epoch (kyr), {_E}, {_OBLIQUITY} (deg), {_VARPI} (deg),"),
-    Layout("Berger & Loutre 1991", f"epoch (kyr from 1950), {_E}, {_VARPI} (deg), "
-           f"{_OBLIQUITY} (deg), climatic_precession,,,,", head=r"ECC\s+OMEGA\s+OBL\s+PREC"),
-    Layout("astrochron getLaskar", f"epoch (ka), {_VARPI} (rad), {_OBLIQUITY} (rad), {_E}",
-           head=r"Time_ka\W+prec_angle_\w+\W+tilt_\w+\W+ecc_\w+"),
+    TableLayout("snvec", f"epoch (kyr), {_OBLIQUITY} (rad),, climatic_precession"),
+    TableLayout("snvec", f"epoch (kyr), {_E}, {_OBLIQUITY} (rad),, {_VARPI} (rad), "
+                "climatic_precession"),
+    TableLayout("ZB18a", f"epoch (kyr), {_E}, {_OBLIQUITY} (deg), {_VARPI} (deg),"),
+    TableLayout("Berger & Loutre 1991", f"epoch (kyr from 1950), {_E}, {_VARPI} (deg), "
+                f"{_OBLIQUITY} (deg), climatic_precession,,,,", head=r"ECC\s+OMEGA\s+OBL\s+PREC"),
+    TableLayout("astrochron getLaskar", f"epoch (ka), {_VARPI} (rad), {_OBLIQUITY} (rad), {_E}",
+                head=r"Time_ka\W+prec_angle_\w+\W+tilt_\w+\W+ecc_\w+"),
 )  # fmt: skip
 #: Its rows may all lie far from J2000.0, so that nothing is known of them; no other layout has as
 #: many columns.
-ASTROGEO22 = Layout("AstroGeo22", "epoch (Gyr ago),,,,,,, obliquity (deg),,,,,")
+ASTROGEO22 = TableLayout("AstroGeo22", "epoch (Gyr ago),,,,,,, obliquity (deg),,,,,")
 
 # --- orbits ---------------------------------------------------------------------------------------
 
 ORBITS = (
-    Layout("HNBody", "t (d), a, e, inc, varpi, Omega"),
-    Layout("La2010", "t (kyr), a, l, k, h, q, p"),
-    Layout("HNBody", "t (d), a, e, inc, varpi, Omega,,"),
-    Layout("Mercury6", "t (yr), a, e, inc (deg), omega (deg), Omega (deg), ...",
-           head=r"(?m)^\s*Time \(years\)\s+a\s+e\s+i\s+peri\s+node"),
+    TableLayout("HNBody", "t (d), a, e, inc, varpi, Omega"),
+    TableLayout("La2010", "t (kyr), a, l, k, h, q, p"),
+    TableLayout("HNBody", "t (d), a, e, inc, varpi, Omega,,"),
+    TableLayout("Mercury6", "t (yr), a, e, inc (deg), omega (deg), Omega (deg), ...",
+                head=r"(?m)^\s*Time \(years\)\s+a\s+e\s+i\s+peri\s+node"),
 )  # fmt: skip
 
 # --- effective angular momentum functions ---------------------------------------------------------
 
 ANGULAR_MOMENTUM = (
-    Layout("mass and motion", "year, month, day, hour, mjd, mass1, mass2,, motion1, motion2,"),
-    Layout("mass", "year, month, day, hour, mjd, mass1, mass2,"),
+    TableLayout("mass and motion", "year, month, day, hour, mjd, mass1, mass2,, motion1, motion2,"),
+    TableLayout("mass", "year, month, day, hour, mjd, mass1, mass2,"),
 )

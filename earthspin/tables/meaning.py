@@ -11,10 +11,10 @@ import itertools
 import math
 from collections.abc import Callable, Iterable, Sequence
 
-from earthspin.tables.columns import BLANK, Column
+from earthspin.tables.columns import BLANK, Meaning
 from earthspin.tables.sheet import Sheet, typed
 
-Columns = Sequence[Column]
+Columns = Sequence[Meaning]
 Misfit = Callable[[Columns], float]
 #: Misfit up to which no better meaning is looked for, and factor by which a meaning must be better:
 #: with a few rows near J2000.0, ages that are read as the future stay within the bounds.
@@ -29,8 +29,8 @@ def refuse_other_meaning(
     Parameters
     ----------
     sheet : Sheet
-    columns : list of Column
-    others : iterable of list of Column
+    columns : list of Meaning
+    others : iterable of list of Meaning
         Other meanings of the columns.
     misfit : callable
     more : bool
@@ -56,20 +56,20 @@ def guessed(
     columns: Columns,
     places: Iterable[int],
     times: Iterable[Columns],
-    options: Sequence[Column],
+    options: Sequence[Meaning],
     misfit: Misfit,
-) -> tuple[float, list[Column]]:
+) -> tuple[float, list[Meaning]]:
     """Find the meaning of columns, one by one, that agrees best with what is known.
 
     Parameters
     ----------
-    columns : list of Column
+    columns : list of Meaning
         One for each column of the table; only their number is used.
     places : iterable of int
         Places of the columns whose meaning is looked for.
-    times : iterable of list of Column
+    times : iterable of list of Meaning
         Possible meanings of the columns of time, all others blank.
-    options : sequence of Column
+    options : sequence of Meaning
         Possible meanings of any other column.
     misfit : callable
 
@@ -77,7 +77,7 @@ def guessed(
     -------
     float
         Share of the columns for which a meaning agrees.
-    list of Column
+    list of Meaning
         The best meaning, with columns left blank for which none agrees.
     """
     best, wanted = (0, math.inf, [BLANK] * len(columns)), [*places]
@@ -98,6 +98,6 @@ def guessed(
     return best[0] / max(len(wanted), 1), best[2]
 
 
-def _with(columns: Columns, place: int, column: Column) -> list[Column]:
+def _with(columns: Columns, place: int, column: Meaning) -> list[Meaning]:
     """Return columns with one of them replaced."""
     return [*columns[:place], column, *columns[place + 1 :]]

@@ -13,8 +13,8 @@ import numpy as np
 from earthspin.errors import SeriesError, nearest
 from earthspin.numerics.arrays import Array, BoolArray, FloatArray
 from earthspin.tables import text as text_of
-from earthspin.tables.columns import BLANK, MORE, Column, column_of, declared, fits, written
-from earthspin.tables.layouts import Layout
+from earthspin.tables.columns import BLANK, MORE, Meaning, column_of, declared, fits, written
+from earthspin.tables.layouts import TableLayout
 from earthspin.units import COMMON, as_written, real_numbers, time_scale
 
 #: Number of lines above the rows in which a header is looked for, and in which names are.
@@ -43,8 +43,8 @@ class Sheet:
         Line of each row in the file; empty for a data frame.
     text : list of int
         Lines of text among the rows.
-    layout : Layout or None
-        Layout that the words above the rows name.
+    layout : TableLayout or None
+        TableLayout that the words above the rows name.
     known : dict of int to array
         Columns whose numbers are read already.
     """
@@ -55,7 +55,7 @@ class Sheet:
     rows: Sequence[Any]
     lines: list[int] = field(default_factory=list)
     text: list[int] = field(default_factory=list)
-    layout: Layout | None = None
+    layout: TableLayout | None = None
     known: dict[int, FloatArray] = field(default_factory=dict)
 
     @property
@@ -108,7 +108,7 @@ class Sheet:
             raise self.error(str(error), "a number is expected", row) from None
 
     def converted(
-        self, place: int, column: Column, unit: str, rows: slice | BoolArray = slice(None)
+        self, place: int, column: Meaning, unit: str, rows: slice | BoolArray = slice(None)
     ) -> FloatArray:
         """Return the numbers of a column in a unit, in all or some rows."""
         try:
@@ -138,7 +138,7 @@ class Sheet:
                 remedy = "is the file cut off?" if last else "is a column lost?"
                 raise self.error(f"{len(cells)} columns; {count} are expected", remedy, row)
 
-    def as_declared(self, text: str, allowed: Collection[str] = ()) -> list[Column]:
+    def as_declared(self, text: str, allowed: Collection[str] = ()) -> list[Meaning]:
         """Return the columns that the user declares, one for each column of the table.
 
         Raises
@@ -156,13 +156,13 @@ class Sheet:
         self.refuse_other_lengths(text)
         return [*meaning, *[BLANK] * (self.width - len(meaning))]
 
-    def not_understood(self, columns: Sequence[Column], needed: str = "") -> SeriesError:
+    def not_understood(self, columns: Sequence[Meaning], needed: str = "") -> SeriesError:
         """Build an error for a header that is not understood, with the columns to type."""
         problem = f"its header '{', '.join(self.names)}' is not understood"
         return self.error(problem, f"say what its columns are: {typed(columns)} {needed}".rstrip())
 
 
-def typed(columns: Sequence[Column], more: bool = False) -> str:
+def typed(columns: Sequence[Meaning], more: bool = False) -> str:
     """Return the key that declares columns, as the user types it."""
     return f"columns='{written(columns, more)}'"
 
@@ -181,7 +181,7 @@ def of_frame(frame: Any) -> Sheet:
     return Sheet(FRAME, "", [str(name) for name in frame.columns], arrays)
 
 
-def split(file: Path, layouts: Sequence[Layout] = ()) -> Sheet:
+def split(file: Path, layouts: Sequence[TableLayout] = ()) -> Sheet:
     """Split a file of text into header and rows.
 
     Semicolons, tabs, commas or spaces separate columns, as in the first row; cells may be quoted,
@@ -190,7 +190,7 @@ def split(file: Path, layouts: Sequence[Layout] = ()) -> Sheet:
     Parameters
     ----------
     file : Path
-    layouts : sequence of Layout
+    layouts : sequence of TableLayout
         Layouts whose words are looked for above the rows, and whose rows and columns may be
         separated in their own way.
 
@@ -216,7 +216,7 @@ def split(file: Path, layouts: Sequence[Layout] = ()) -> Sheet:
     return Sheet(file, words, names, cells, numbers, text, layout)
 
 
-def _begins(layout: Layout, words: str, first: str) -> bool:
+def _begins(layout: TableLayout, words: str, first: str) -> bool:
     """Return True if the words above the rows, or the first row, are those of a layout."""
     if layout.head:
         return re.search(layout.head, words) is not None
@@ -224,7 +224,7 @@ def _begins(layout: Layout, words: str, first: str) -> bool:
 
 
 def _rows(
-    lines: list[str], start: int, layout: Layout | None
+    lines: list[str], start: int, layout: TableLayout | None
 ) -> tuple[list[str], list[int], list[int]]:
     """Rows of a file from the line `start` on, their line numbers, and lines of text among them."""
     rows, numbers, text = [], [], []
@@ -247,9 +247,9 @@ def _cells_and_names(
     The empty column after a delimiter at the end, and the names of rows that R writes, are left
     out.
     """
-    names = _header(head, mark, len(cells[0]))
+    names = _header(head, [mark, *text_of.DELIMITERS, ""], len(cells[0]))
     if mark and len(cells[0]) > 1 and not any(row[-1] for row in cells):
-        shorter = _header(head, mark, len(cells[0]) - 1)
+        shorter = _header(head, [mark], len(cells[0]) - 1)
         if (shorter and shorter[0]) or not (names and names[-1]):
             cells, names = [row[:-1] for row in cells], shorter or names[:-1]
     numbered = [row[0] for row in cells] == [str(row + 1) for row in range(len(cells))]
@@ -258,15 +258,15 @@ def _cells_and_names(
     return cells, names
 
 
-def _header(head: list[str], mark: str, count: int) -> list[str]:
+def _header(head: list[str], marks: list[str], count: int) -> list[str]:
     """Names of the columns: the last line that has as many, or one less if rows have names.
 
     A line of units below the names is joined to them.
     """
     units: list[str] = []
     for line in reversed(head[-_NEAREST:]):
-        for other in dict.fromkeys([mark, *text_of.DELIMITERS, ""]):
-            names = text_of.names_of(line, other)
+        for mark in dict.fromkeys(marks):
+            names = text_of.names_of(line, mark)
             names = ["", *names] if len(names) == count - 1 and count > 2 else names
             prose = line.rstrip().endswith(".") or max(map(len, names), default=0) > _LONGEST_NAME
             if len(names) != count or count < 2 or prose or not re.search("[A-Za-z]", line):
