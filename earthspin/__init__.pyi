@@ -68,85 +68,136 @@ from earthspin.engine.store import verify as verify
 from earthspin.engine.store import write as write
 from earthspin._version import __version__ as __version__
 
-
 def precession(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def torque_series(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    equator: Literal['mean', 'true'] | None = ...,
+    equator: Literal["mean", "true"] | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def pole(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal['known', 'rigid', 'all'] | Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
-    response: Literal['fitted', 'predicted'] | None = ...,
+    effects: Literal["known", "rigid", "all"]
+    | Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
+    response: Literal["fitted", "predicted"] | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def compare_iau(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal['known', 'rigid', 'all'] | Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
+    effects: Literal["known", "rigid", "all"]
+    | Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def nutation_ladder(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal['known', 'rigid', 'all'] | Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
-    coupling: Literal['none', 'inferred'] | None = ...,
+    effects: Literal["known", "rigid", "all"]
+    | Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
+    coupling: Literal["none", "inferred"] | None = ...,
     anelastic_exponent: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def long_term(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Epochs | None = ...,
     orbit: str | PathLike[str] | OrbitTable | None = ...,
     tides: Value | None = ...,
@@ -156,16 +207,20 @@ def long_term(
     longitude_shift: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def insolation(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Epochs | None = ...,
     orbit: str | PathLike[str] | OrbitTable | None = ...,
     tides: Value | None = ...,
@@ -180,29 +235,41 @@ def insolation(
     solar_constant: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def rotation(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal['known', 'rigid', 'all'] | Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
+    effects: Literal["known", "rigid", "all"]
+    | Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
     start_attitude: Values | None = ...,
     start_omega: Values | None = ...,
     torque: Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike] | None = ...,
     tolerance: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def wobble_ladder(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    ocean: Literal['real', 'global', 'none'] | None = ...,
+    ocean: Literal["real", "global", "none"] | None = ...,
     anelastic_exponent: Value | None = ...,
     k2: Value | None = ...,
     core_fraction: Value | None = ...,
@@ -210,30 +277,27 @@ def wobble_ladder(
     ocean_love_number: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def polar_motion(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | xr.Dataset | pd.DataFrame | None = ...,
-    kind: Literal['c04', 'c01', 'finals2000A'] | None = ...,
+    kind: Literal["c04", "c01", "finals2000A"] | None = ...,
     columns: str | None = ...,
-    method: Literal['burg', 'likelihood'] | None = ...,
+    method: Literal["burg", "likelihood"] | None = ...,
     window: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def pole_offsets(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | xr.Dataset | pd.DataFrame | None = ...,
-    kind: Literal['c04', 'c01', 'finals2000A'] | None = ...,
+    kind: Literal["c04", "c01", "finals2000A"] | None = ...,
     columns: str | None = ...,
     window: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def forecast(
     days: Value | None = ...,
     step: Value | None = ...,
@@ -243,11 +307,10 @@ def forecast(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     start: Date | float | None = ...,
     columns: str | None = ...,
-    parameters: Literal['shipped', 'fitted'] | None = ...,
+    parameters: Literal["shipped", "fitted"] | None = ...,
     excitation: xr.Dataset | pd.DataFrame | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def free_rotor(
     moments: Values | Mapping[str, Value],
     omega: Values,
@@ -257,7 +320,6 @@ def free_rotor(
     points: int | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def heavy_top(
     times: Values | None = ...,
     *,
@@ -274,7 +336,6 @@ def heavy_top(
     psi: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def spheroid_field(
     position: Values,
     *,
@@ -282,14 +343,12 @@ def spheroid_field(
     point_mass: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def cassini_states(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     orbit: Orbit | Mapping[str, Any] | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
-
 def love_numbers(
     interior: str | LayeredBody | Mapping[str, Any] | None = ...,
     period: Value | None = ...,
@@ -299,4 +358,63 @@ def love_numbers(
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
 
-__all__ = ['__version__', 'AccuracyError', 'ApartError', 'ArgumentError', 'BODIES', 'Body', 'BodyError', 'CoverageError', 'EARTH', 'EarthspinError', 'KernelError', 'MARS', 'MOON', 'MissingExtraError', 'Orbit', 'OutputError', 'SUN', 'Scene', 'SceneError', 'SeriesError', 'UndefinedError', 'UnitsError', 'VersionWarning', 'cassini_states', 'compare_iau', 'daily_insolation', 'ensemble', 'excitation', 'fit_chandler', 'forecast', 'free_rotor', 'heavy_top', 'insolation', 'load_scene', 'long_term', 'love_numbers', 'nutation_ladder', 'open', 'plan', 'polar_motion', 'polar_motion_from', 'pole', 'pole_offsets', 'pole_stars', 'precession', 'read', 'read_excitation', 'read_orbit', 'read_solution', 'rotation', 'run', 'run_tree', 'spheroid_field', 'torque_series', 'verify', 'wobble_ladder', 'write', 'write_series']
+__all__ = [
+    "__version__",
+    "AccuracyError",
+    "ApartError",
+    "ArgumentError",
+    "BODIES",
+    "Body",
+    "BodyError",
+    "CoverageError",
+    "EARTH",
+    "EarthspinError",
+    "KernelError",
+    "MARS",
+    "MOON",
+    "MissingExtraError",
+    "Orbit",
+    "OutputError",
+    "SUN",
+    "Scene",
+    "SceneError",
+    "SeriesError",
+    "UndefinedError",
+    "UnitsError",
+    "VersionWarning",
+    "cassini_states",
+    "compare_iau",
+    "daily_insolation",
+    "ensemble",
+    "excitation",
+    "fit_chandler",
+    "forecast",
+    "free_rotor",
+    "heavy_top",
+    "insolation",
+    "load_scene",
+    "long_term",
+    "love_numbers",
+    "nutation_ladder",
+    "open",
+    "plan",
+    "polar_motion",
+    "polar_motion_from",
+    "pole",
+    "pole_offsets",
+    "pole_stars",
+    "precession",
+    "read",
+    "read_excitation",
+    "read_orbit",
+    "read_solution",
+    "rotation",
+    "run",
+    "run_tree",
+    "spheroid_field",
+    "torque_series",
+    "verify",
+    "wobble_ladder",
+    "write",
+    "write_series",
+]

@@ -218,7 +218,7 @@ def _misfit(sheet: Sheet, meaning: Sequence[Meaning], bodies: Sequence[str] = KN
     except ValueError:  # a column of text is one, too
         return math.inf
     names = [name for name in BOUNDS if name in data]
-    if np.count_nonzero(near) < min(FEWEST, near.size) or not names:
+    if np.count_nonzero(near) < max(1, min(FEWEST, near.size)) or not names:
         return math.inf
 
     def misfit(body: str, name: str) -> float:

@@ -24,7 +24,7 @@ from earthspin.questions import reasons, time_axes
 from earthspin.sky import eop
 from earthspin.sky.eop import GivenSeries, PoleSeries
 from earthspin.sky.pole_tables import NAMES
-from earthspin.tables import DATES, column_of, is_frame, is_table, places
+from earthspin.tables import DATES, column_of, is_frame, is_table, places, series_of
 from earthspin.units import FileName, Plain, Text, pack, unpack
 from earthspin.wobble.excitation import pole_of
 
@@ -224,7 +224,7 @@ def _labelled(table: Any) -> Any:
     quantities = {place: quantity for quantity, place in places(names, _COLUMNS).items()}
     columns = {}
     for place, name in enumerate(names):
-        column, values = column_of(name), frame[frame.columns[place]].to_numpy()
+        column, values = column_of(name), series_of(frame, place).to_numpy()
         if place in quantities:
             name = _VARIABLES.get(quantities[place], quantities[place])
         if values.dtype.kind == "f":
@@ -242,8 +242,8 @@ def _times_of(frame: Any, names: list[str]) -> NDArray[np.datetime64]:
         If there are none.
     """
     known = places(names, DATES)
-    for place, name in enumerate(frame.columns):
-        column = frame[name]
+    for place, name in enumerate(names):
+        column = series_of(frame, place)
         kind = str(column.dtype)
         if kind.startswith("period"):
             return np.asarray(column.dt.to_timestamp().to_numpy())
@@ -254,10 +254,10 @@ def _times_of(frame: Any, names: list[str]) -> NDArray[np.datetime64]:
             return np.asarray(values)
         text = place == known.get("date") and values.dtype.kind in "OUT"
         if text or hasattr(values.flat[0] if values.size else None, "calendar"):
-            return datetime64(days([*values], Where(str(name))))
+            return datetime64(days([*values], Where(name)))
     for word, first in (("mjd", eop.MJD), ("jd", J2000_JD)):
         if word in known:
-            return datetime64(frame[frame.columns[known[word]]].to_numpy().astype(float) - first)
+            return datetime64(series_of(frame, known[word]).to_numpy().astype(float) - first)
     problem = "give dates as its index, or in a column 'time', or a column 'MJD'"
     raise SceneError("columns", names, problem)
 

@@ -13,6 +13,7 @@ Earth is therefore compared with the ecliptic at J2000.0.
 
 from __future__ import annotations
 
+import itertools
 import math
 import os
 import re
@@ -63,8 +64,8 @@ _WORDS = {
     r"node|lan|raan": "Omega", r"^([khqp])$": r"\1",
 }  # fmt: skip
 #: Interval around J2000.0 in which an orbit is compared with that of the package, s, and largest
-#: median distance of the eccentricity vectors of the same orbit; the argument of the perihelion for
-#: its longitude makes 0.007, degrees for radians 0.02.
+#: median distance of the normals, or of the eccentricity vectors, of the same orbit; the argument
+#: of the perihelion for its longitude makes 0.007, degrees for radians 0.02.
 NEAR, SAME = 20_000 * JULIAN_YEAR, 0.0015
 #: Fewest rows in it that are compared.
 FEWEST_NEAR = 3
@@ -239,8 +240,8 @@ def _meaning(
                 problem = f"its header has '{meaning[place]}'"
                 raise sheet.error(problem, f"leave out {key} = {known!r}")
             meaning[place] = meaning[place]._replace(unit=known)
-        elif name == "t" and not unit:
-            meaning[place] = Meaning("t", "kyr" if "k" in places else "d")
+    time_unit = meaning[places["t"]].unit or ("kyr" if "k" in places else "d")
+    meaning[places["t"]] = Meaning("t", time_unit)
     named = bool(text or sheet.names or (layout and layout.head))
     return meaning, named
 
@@ -289,10 +290,11 @@ def _compare(given: _Rows, declared: bool, axes: FloatArray, body: str) -> None:
             near = np.abs(rows.times) <= NEAR
             if np.count_nonzero(near) < FEWEST_NEAR:
                 return math.nan
-            vectors = rows.vectors()[1][near] @ axes - known.at(rows.times[near])[1].T
+            vectors = np.array(rows.vectors())[:, near] @ axes
         except SeriesError:
             return math.inf
-        return float(np.median(np.linalg.norm(vectors, axis=1))) / SAME
+        off = vectors - np.swapaxes(known.at(rows.times[near])[:2], 1, 2)
+        return float(np.median(np.linalg.norm(off, axis=2), axis=1).max()) / SAME
 
     meaning = given.meaning
     tables.refuse_other_meaning(given.sheet, meaning, _others(meaning), misfit)
@@ -312,8 +314,13 @@ def _others(meaning: list[Meaning]) -> Iterator[list[Meaning]]:
     )
     for words in exchanges:
         for angles in ({}, {"deg": "rad", "rad": "deg"}):
-            for time in units:
-                yield tables.with_words(meaning, words | angles | {unit: time})
+            turned = tables.with_words(meaning, angles)
+            inclined = [
+                new if new.quantity in NAMES["inc"] else old
+                for old, new in zip(meaning, turned, strict=True)
+            ]
+            for time, columns in itertools.product(units, (turned, inclined)):
+                yield tables.with_words(columns, words | {unit: time})
 
 
 def _axes(frame: object, where: Where) -> FloatArray:

@@ -127,7 +127,7 @@ def _without_header(sheet: Sheet, kind: str | None) -> Sequence[published.TableL
     if sheet.names or kind:
         return ()
     first = sheet.rows[0][0]
-    if not (tables.is_number(first) and 1800 <= float(first) <= 2200):
+    if not (tables.is_number(first) and 1800 <= float(first.replace(",", ".")) <= 2200):
         return (published.C01_BY_MJD,)
     return published.C01_BY_YEAR if "." in first else published.C04
 

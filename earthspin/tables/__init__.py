@@ -13,12 +13,12 @@ from earthspin.tables.columns import (
     written,
 )
 from earthspin.tables.meaning import guessed, refuse_other_meaning
-from earthspin.tables.sheet import FRAME, Sheet, is_frame, of_frame, split, typed
+from earthspin.tables.sheet import FRAME, Sheet, is_frame, of_frame, series_of, split, typed
 from earthspin.tables.text import checksum, is_number, is_table, lines_of
 
 __all__ = [
     "BLANK", "DATES", "FRAME", "MJD_0", "MORE", "Meaning", "Sheet", "checksum", "column_of",
     "dates_of", "declared", "fits", "guessed", "is_frame", "is_number", "is_table", "lines_of",
     "of_frame",
-    "places", "refuse_other_meaning", "split", "typed", "with_words", "written",
+    "places", "refuse_other_meaning", "series_of", "split", "typed", "with_words", "written",
 ]  # fmt: skip

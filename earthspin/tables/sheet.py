@@ -147,9 +147,12 @@ class Sheet:
             If a quantity is none of those that are allowed, or their number is another.
         """
         meaning = declared(text)
-        for name in (column.quantity for column in meaning):
-            if name and allowed and name not in allowed:
+        names = [column.quantity for column in meaning if column.quantity]
+        for name in names:
+            if allowed and name not in allowed:
                 raise self.error(f"columns='{text}': '{name}' is unknown", nearest(name, allowed))
+            if names.count(name) > 1:
+                raise self.error(f"columns='{text}': '{name}' stands twice", "keep one of them")
         if not fits(text, self.width):
             problem = f"{self.width} columns, of which {len(meaning)} are named"
             raise self.error(problem, f"name each, leave names empty, or end with '{MORE}'")
@@ -175,10 +178,16 @@ def is_frame(table: object) -> bool:
 def of_frame(frame: Any) -> Sheet:
     """Return a data frame of pandas or polars as a table."""
     arrays: list[Array] = [
-        frame.iloc[:, place].to_numpy() if hasattr(frame, "iloc") else frame[name].to_numpy()
-        for place, name in enumerate(frame.columns)
+        series_of(frame, place).to_numpy() for place in range(len(frame.columns))
     ]
+    if not arrays or not arrays[0].size:
+        raise SeriesError(FRAME, "it holds no rows")
     return Sheet(FRAME, "", [str(name) for name in frame.columns], arrays)
+
+
+def series_of(frame: Any, place: int) -> Any:
+    """Return a column of a data frame, whose names may be repeated."""
+    return frame.iloc[:, place] if hasattr(frame, "iloc") else frame[frame.columns[place]]
 
 
 def split(file: Path, layouts: Sequence[TableLayout] = ()) -> Sheet:

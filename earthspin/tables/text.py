@@ -123,7 +123,7 @@ def cells_of(lines: Sequence[str], mark: str) -> list[Sequence[str]]:
 
 def _has_decimal_commas(cells: Iterable[str]) -> bool:
     """Return True if a cell is a number with a comma for its point."""
-    return any(re.fullmatch(r"[-+]?\d+,\d+", cell) for cell in cells)
+    return any(re.fullmatch(r"[-+]?\d+,\d+([eE][-+]?\d+)?", cell) for cell in cells)
 
 
 def names_of(line: str, mark: str) -> list[str]:

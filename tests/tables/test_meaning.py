@@ -281,6 +281,7 @@ def test_all_calls_take_the_same_things(file: Path) -> None:
     [
         (lambda t: t.rename(columns={"omega": "varpi"}), "omega (deg)"),
         (lambda t: t.assign(t=-t.t), "t (d ago)"),
+        (lambda t: t.assign(inc=np.radians(t.inc)), "inc (rad)"),
     ],
 )
 def test_orbits_that_agree_only_otherwise(
@@ -293,6 +294,7 @@ def test_orbits_that_agree_only_otherwise(
     read = earthspin.read_orbit(table, columns=columns)
     again = earthspin.long_term("-15 kyr", "0 kyr", "5 kyr", orbit=read)
     assert float(abs(again.climatic_precession - known.climatic_precession).max()) < 1e-4
+    assert float(abs(again.obliquity - known.obliquity).max()) < 1e-3
 
 
 def test_a_file_of_mercury_by_its_names(file: Path) -> None:
