@@ -326,3 +326,30 @@ def test_a_header_that_contradicts_a_key(file: Path) -> None:
     assert file.name in earthspin.read_orbit(file, time="kyr").source
     with pytest.raises(EarthspinError, match=r"header has 't \(kyr\)'; leave out time"):
         earthspin.read_orbit(file, time="yr")
+
+
+@pytest.mark.parametrize(
+    ("text", "columns", "words"),
+    [
+        ("MJD,x (m),y (m)\n58849,0.1,0.2\n58850,0.1,0.2\n", None, r"unit of 'x \(m\)'.*x \(arcsec"),
+        ("1 0.1 0.2\n2 0.1 0.2\n", "x (mas), y (mas),", "no column of dates; name one of year"),
+        ("1 0.1 0.2\n2 0.1 0.2\n", "mjd, x (mas), x (mas)", "'x' stands twice"),
+        ("1 0.1 0.2\n2 0.1 0.2\n", "mjd, x (mas), z (mas)", "'z' is unknown"),
+        ("1 0.1 0.2\n2 0.1 0.2\n", "mjd, x (mas)", "3 columns, of which 2 are named"),
+    ],
+)
+def test_columns_that_cannot_be_read(
+    file: Path, text: str, columns: str | None, words: str
+) -> None:
+    file.write_text(text)
+    with pytest.raises(SeriesError, match=words):
+        earthspin.polar_motion(file=file, columns=columns)
+
+
+def test_a_span_beside_a_gap_of_the_real_table_is_read() -> None:
+    """Rows of C01 from 1846 to 2022, most of which are left out in the excerpt."""
+    excerpt = Path(__file__).parent.parent / "data" / "eopc01-excerpt.txt"
+    with pytest.raises(SeriesError, match="take a span on one side of it"):
+        earthspin.polar_motion(file=excerpt)
+    part = earthspin.polar_motion(file=excerpt, span=("1912-04-16", "1913-01-01"))
+    assert float(part.x[0]) == pytest.approx(-0.161046, rel=0, abs=1e-5)  # row of MJD 19512.277
