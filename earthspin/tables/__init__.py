@@ -3,7 +3,6 @@
 from earthspin.tables.calendar_dates import DATES, MJD_0, dates_of
 from earthspin.tables.columns import (
     BLANK,
-    MORE,
     Meaning,
     column_of,
     declared,
@@ -17,8 +16,8 @@ from earthspin.tables.sheet import FRAME, Sheet, is_frame, of_frame, series_of, 
 from earthspin.tables.text import checksum, is_number, is_table, lines_of
 
 __all__ = [
-    "BLANK", "DATES", "FRAME", "MJD_0", "MORE", "Meaning", "Sheet", "checksum", "column_of",
+    "BLANK", "DATES", "FRAME", "MJD_0", "Meaning", "Sheet", "checksum", "column_of",
     "dates_of", "declared", "fits", "guessed", "is_frame", "is_number", "is_table", "lines_of",
-    "of_frame",
-    "places", "refuse_other_meaning", "series_of", "split", "typed", "with_words", "written",
+    "of_frame", "places", "refuse_other_meaning", "series_of", "split", "typed",
+    "with_words", "written",
 ]  # fmt: skip
