@@ -19,6 +19,7 @@ from earthspin._lazy import METHODS, registered
 from earthspin.engine import atomic_writes
 from earthspin.engine.members import MEMBER
 from earthspin.engine.question import ALL, names_in, scene_of
+from earthspin.engine.variables import texts_as_columns
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics import sampling
 from earthspin.units import real_numbers
@@ -152,7 +153,7 @@ class Answer:
              moon            37613.9
             total            25712.1
         """
-        spread, variables = _spread(self.dataset), [*map(str, self.dataset.data_vars)]
+        spread, variables = _spread(self.dataset), [*map(str, self.dataset.variables)]
         requested = names_in(columns, "columns")
         if requested == [ALL]:
             requested = [str(n) for n, v in spread.data_vars.items() if v.ndim or not spread.sizes]
@@ -367,6 +368,7 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
     A variable with further dimensions becomes one variable for each of their labels.
     """
     columns: dict[str, xr.DataArray] = {}
+    dataset = texts_as_columns(dataset)
     dims = [frozenset(array.dims) for array in dataset.data_vars.values() if array.ndim]
     common = Counter(some.difference(("component", "quaternion", "axis")) for some in dims)
     rows = common.most_common(1)[0][0] if common else frozenset()

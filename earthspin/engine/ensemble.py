@@ -24,6 +24,7 @@ from earthspin.engine.ensemble_inputs import along_members, inputs_of, published
 from earthspin.engine.members import MEMBER, TWICE, IntArray, Members, draw
 from earthspin.engine.question import SCENE, Question, scene_text
 from earthspin.engine.run import Run
+from earthspin.engine.variables import texts_as_labels
 from earthspin.errors import ApartError, EarthspinError, SceneError
 from earthspin.units import Number
 
@@ -328,7 +329,7 @@ class Ensemble:
         order = np.argsort(np.concatenate([indices for indices, _ in pieces]))
         if (np.diff(order) != 1).any():
             block = block.isel({MEMBER: order} if MEMBER in block.dims else {})
-        block = block.assign_coords(self._labels(slice(first, last), block))
+        block = texts_as_labels(block).assign_coords(self._labels(slice(first, last), block))
         return block if number else self._with_attributes(block)
 
     # --- members of a block ----------------------------------------------------------------------
@@ -365,7 +366,7 @@ class Ensemble:
         except EarthspinError as error:
             error.args = (f"member {which}: {error}",)
             raise
-        for name, label in self.nominal.coords.items():
+        for name, label in self.nominal.drop_vars(answer.data_vars).coords.items():
             if name not in answer.coords or not label.variable.equals(answer[name].variable):
                 problem = f"member {which} has other labels along '{name}'"
                 raise self.question.error("members", list(self.inputs), problem)

@@ -405,7 +405,7 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
 def scene_of(answer: Any) -> str:
     """Text of the scene (input file) that a result stores; empty if there is none.
 
-    A netCDF file holds the scene as a variable, so that ``ncdump -h`` stays readable.
+    A netCDF file of an earlier version holds the scene as a variable.
     """
     text = answer.attrs.get(SCENE)
     if text is None and SCENE in getattr(answer, "data_vars", ()):

@@ -18,7 +18,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.engine.question import ALL, SCENE, Part, Question, names_in, scene_text
-from earthspin.engine.variables import Neglected, Variables, error_of, labels_of, variable_of
+from earthspin.engine.variables import (
+    Neglected,
+    Variables,
+    error_of,
+    labels_of,
+    texts_as_labels,
+    variable_of,
+)
 from earthspin.errors import SceneError, UndefinedError, nearest
 from earthspin.html_table import card
 
@@ -301,7 +308,7 @@ class Run:
     def answer(self) -> xr.Dataset:
         """Return the answer as a Dataset, with title, references and other attributes."""
         self._load_modules(self.graph.ends)
-        result, neglected = self.numbers(), self.neglected
+        result, neglected = texts_as_labels(self.numbers()), self.neglected
         results = map(self.__getitem__, self.dependencies(self.graph.ends))
         result.attrs = _described(self.question, results) | self.provenance(self.graph.ends)
         result.attrs |= {Neglected.PART: neglected.largest, SCENE: scene_text(self.question)}
@@ -319,7 +326,7 @@ class Run:
         nodes = {"/": answer}
         for name in names:
             parts = self.graph.sections[name]
-            nodes[name] = self.numbers(parts, effects)
+            nodes[name] = texts_as_labels(self.numbers(parts, effects))
             sources = self.provenance(parts)
             nodes[name].attrs |= {key: sources[key] for key in sources if key not in answer.attrs}
         return xr.DataTree.from_dict(nodes | {"plan": self.plan(names).dataset()})

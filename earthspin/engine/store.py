@@ -107,8 +107,6 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
         If the file cannot be written; the message contains that of the operating system.
     """
     groups = _groups(result)
-    if scene := groups["/"].attrs.pop(SCENE, ""):
-        groups["/"][SCENE] = ((), scene, {"long_name": "the complete question, a scene in TOML"})
     root = groups["/"].assign_attrs({CONTENT: content_hash(groups)})
     with signals_held(), _NETCDF:
         try:
@@ -131,7 +129,7 @@ def _refuse_attributes(result: xr.Dataset | xr.DataTree, path: Path) -> None:
         owners = {f"'{name}'": variable.attrs for name, variable in node.variables.items()}
         for owner, attrs in ({"the answer": node.attrs} | owners).items():
             for name, value in attrs.items():
-                wanted = isinstance(value, str) if name == SCENE else _is_storable(value)
+                wanted = _is_storable(value) and (name != SCENE or isinstance(value, str))
                 if not (isinstance(name, str) and wanted):
                     what = f"attribute {name!r} of {owner} is of type {type(value).__name__}"
                     remedy = "give text, a real number or a plain list of these, or remove it"
@@ -264,7 +262,7 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
                 variable.attrs[UNITS] = variable.attrs.pop(SHOWN)
     root = nodes["/"]
     root.attrs = {name: value for name, value in root.attrs.items() if name not in _FILE_ATTRIBUTES}
-    if SCENE in root.data_vars:
+    if SCENE in root.data_vars:  # a file of an earlier version
         root.attrs[SCENE] = scene_of(root)
         nodes["/"] = root = root.drop_vars(SCENE)
     if "history" in root.attrs:  # the date belongs to the file
@@ -413,10 +411,9 @@ def encoding_of(node: xr.Dataset, *, zarr: bool = True) -> dict[str, dict[str, A
     """Return the netCDF or Zarr encoding of each variable of a Dataset, by variable name.
 
     The CF conventions require that coordinate variables are numeric, so text labels are stored as
-    arrays of characters, which xarray reads back as text. The scene is stored as characters too,
-    because the netCDF library crashes if a file with variable-length text is opened twice. Missing
-    chunks of a Zarr store are read as NaN. A variable up to `CHUNK` bytes is one chunk, because
-    Zarr writes chunks at the same time, and after an error in one of them it writes the others.
+    arrays of characters, which xarray reads back as text. Missing chunks of a Zarr store are read
+    as NaN. A variable up to `CHUNK` bytes is one chunk, because Zarr writes chunks at the same
+    time, and after an error in one of them it writes the others.
 
     Parameters
     ----------
@@ -432,7 +429,7 @@ def encoding_of(node: xr.Dataset, *, zarr: bool = True) -> dict[str, dict[str, A
             entry["_FillValue"] = np.nan
         elif not zarr and (kind == "f" or coordinate):
             entry["_FillValue"] = None  # no value is missing, and CF forbids it for coordinates
-        if not zarr and kind in "UO" and (coordinate or name == SCENE):
+        if not zarr and kind in "UO" and coordinate:
             entry["dtype"] = "S1"
         if zarr and variable.dims:
             length, *others = (max(size, 1) for size in variable.shape)

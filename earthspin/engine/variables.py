@@ -368,6 +368,21 @@ def labels_of(name: str, values: object, attrs: Mapping[str, object] | None = No
     return variable
 
 
+def texts_as_labels(answer: xr.Dataset) -> xr.Dataset:
+    """Make texts and dates coordinates, because reductions of xarray fail for text variables."""
+    return answer.set_coords([n for n, array in answer.data_vars.items() if _is_text(array)])
+
+
+def texts_as_columns(answer: xr.Dataset) -> xr.Dataset:
+    """Make texts and dates variables again, other than dimensions and inputs of members."""
+    others = (n for n, array in answer.coords.items() if _is_text(array) and n not in answer.dims)
+    return answer.reset_coords([name for name in others if "input" not in answer[name].attrs])
+
+
+def _is_text(array: xr.DataArray) -> bool:
+    return array.dtype.kind in "OUM"
+
+
 # --- neglected effects: they are not part of the errors of results -------------------------------
 
 

@@ -70,7 +70,7 @@ def _spread(answer: xr.Dataset) -> xr.Dataset:
     for name in names:
         middle[name].attrs["ancillary_variables"] = f"{name}_error"
         half[f"{name}_error"].attrs["units"] = middle[name].attrs.get("units", "")
-    merged: xr.Dataset = middle.merge(half)
+    merged: xr.Dataset = middle.merge(half, compat="override")
     return merged
 
 

@@ -13,7 +13,8 @@ import numpy as np
 import xarray as xr
 
 from earthspin.engine.accessor import is_ensemble
-from earthspin.engine.run import NOT_REQUESTED, REUSED
+from earthspin.engine.run import NOT_REQUESTED, REUSED, run_time_words
+from earthspin.engine.variables import texts_as_columns
 from earthspin.errors import SceneError
 from earthspin.progress import progress
 from earthspin.scenes import plan, run_tree
@@ -324,7 +325,7 @@ def _write_members(
 
 
 def _write_node(node: xr.DataTree, stream: TextIO) -> None:
-    data = node.earthspin.dataset
+    data = texts_as_columns(node.earthspin.dataset)
     stream.write(f'{{"attrs": {_text(data.attrs)},\n"dims": {_text(data.sizes)}')
     _write_members("coords", data.coords, _write_array, stream)
     _write_members("data_vars", data.data_vars, _write_array, stream)

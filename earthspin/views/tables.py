@@ -12,7 +12,7 @@ from typing import Any, Literal, SupportsFloat
 import numpy as np
 import xarray as xr
 
-from earthspin.engine.variables import error_of, from_si
+from earthspin.engine.variables import error_of, from_si, texts_as_columns
 from earthspin.views.result_contents import Result, answer_of, section
 
 MAS_PER_CENTURY = 1e5  # of an arcsec/yr
@@ -334,7 +334,7 @@ def numbered(tables: Iterable[TextTable]) -> list[TextTable]:
 
 def _names(data: xr.Dataset) -> list[str]:
     """Names of the variables that tables show: all except half-widths and their contributions."""
-    names = [str(name) for name in data.data_vars]
+    names = [str(name) for name in texts_as_columns(data).data_vars]
     half_widths = {_half_width(data, name) for name in names}
     return [name for name in names if name not in half_widths and "_error_" not in name]
 
