@@ -82,10 +82,9 @@ clean:
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)
 
-# Not quiet: a first installation takes a minute, and says what it does.
 $(VENV)/.core: pyproject.toml | $(VENV)/bin/python
-	@echo "Installing earthspin and what it needs into $(VENV)"
-	$(BIN)/python -m pip install --disable-pip-version-check --editable .
+	@echo "Installing earthspin and the libraries that it needs into $(VENV); this takes one to two minutes"
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
 	@touch $@
 
 $(VENV)/.test: pyproject.toml | $(VENV)/bin/python

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from earthspin.bodies import in_a_sentence
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.variables import largest_of, si
 from earthspin.errors import SceneError, listed
@@ -25,21 +26,36 @@ PASSED = 2.0
 
 
 def lead(tree: Result) -> str:
-    """First sentence on the precession page: period of precession, and which torques cause it."""
+    """First words of the precession page: periods of each torque, of the wobble, of all effects."""
     answer, known = answer_of(tree), stored_section(tree, "iau_2006")
-    alone = measured(answer.isel(perturber=-1), "precession_period", "years")
-    pull = f"the pull of {result_contents.perturbers_of(answer)} on the equatorial bulge"
+    first, last = (
+        measured(answer.isel(perturber=k), "precession_period", "years") for k in (0, -1)
+    )
+    words = f"The axis of {result_contents.body_of(answer)} goes once round in "
+    if answer.sizes["perturber"] > 2:
+        words += (
+            f"{first} by the torque of {in_a_sentence(answer.perturber[0].item())} alone, and in "
+        )
+    words += (
+        f"{last} by the pull of {result_contents.perturbers_of(answer)} on the equatorial bulge"
+    )
     if moons := _satellites(answer):
-        pull += f" and on the orbits of its satellites {moons}, which precess with it"
-    once = f"The axis of {result_contents.body_of(answer)} goes once round in"
+        words += f" and on the orbits of its satellites {moons}, which precess with it"
+    words += ", and nothing else."
+    if (wobble := stored_section(tree, "free_wobble")) is not None:
+        rigid = measured(wobble, "free_wobble_period", "days")
+        words += f" Its free wobble takes {rigid} if it is rigid"
+        if "observed_period" in wobble:
+            words += f", and {measured(wobble, 'observed_period', 'days')} as observed"
+        words += "."
     if known is None:
-        return f"{once} {alone} in this model: {pull}, and nothing else."
+        return words
     period, error = _with_known_effects(known)
     return (
-        f"{once} {tables.with_error(period, error)} years by all known effects together; IAU 2006 "
-        f"has {FULL_TURN / float(known.iau_rate):.3f}. "
-        f"The model of this page, {pull}, gives {alone} by itself: it leaves out effects that add "
-        f"{period - float(answer.precession_period[-1]):.2f} years."
+        f"{words} All known effects together give a precession period of "
+        f"{tables.with_error(period, error)} years, "
+        f"{period - float(answer.precession_period[-1]):.2f} years more; IAU 2006 has "
+        f"{FULL_TURN / float(known.iau_rate):.3f} years."
     )
 
 

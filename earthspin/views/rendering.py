@@ -184,6 +184,8 @@ def print_tables(tree: Result, *, with_plan: bool = False) -> None:
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
+    if lead := _lead(tree):
+        console.print_text(f"{lead}\n")
     for table in [*tables_for(tree), *(run_time_tables(tree) if with_plan else ())]:
         console.print_table(table)
         console.print()
@@ -228,20 +230,23 @@ def page_of(
     """
     from earthspin.views.page import page
 
-    if lead is None:
-        lead_of = _views(trees[0]).lead
-        lead = lead_of(trees[0]) if lead_of else " ".join(changes_of(answer_of(trees[0])))
     return page(
         title,
         tables.numbered(table for tree in trees for table in tables_for(tree)),
         [d for tree in trees for d in drawings_for(tree)] if drawings is None else drawings,
         [solid for tree in trees for solid in solids_for(tree)],
-        lead=lead,
+        lead=_lead(trees[0]) if lead is None else lead,
         note=f"{BRACKETS}\n{_pages_of(trees[0])}",
         links=links,
         last=run_time_tables(*trees),
         footer=_footer(answer_of(trees[0])),
     )
+
+
+def _lead(tree: Result) -> str:
+    """Sentences at the head of a result: its main numbers, or the changes of the bodies."""
+    lead_of = _views(tree).lead
+    return lead_of(tree) if lead_of else " ".join(changes_of(answer_of(tree)))
 
 
 def run_time_tables(*trees: Result) -> list[TextTable]:

@@ -47,7 +47,11 @@ class Terminal(Console):
             shown.add_row(*(_plain(short_exponents(cell)) for cell in row))
         self.print(shown)
         for words in filter(None, (table.note, table.cost)):
-            self.print(_plain(short_exponents(words)), style="dim")
+            self.print_text(words, style="dim")
+
+    def print_text(self, words: str, style: str = "") -> None:
+        """Print sentences; exponents are shortened, and control characters are escaped."""
+        self.print(_plain(short_exponents(words)), style=style)
 
 
 def _plain(words: str) -> Text:
