@@ -121,6 +121,13 @@ class TopMotion(TimesFromStart, error="relative_error"):
         "rad/s", "angular velocity along the principal axes", along=("time", "component")
     )
     pattern = words("wave, cusp, loop, steady or sleeping", along=())
+    stability = words("stable, critical or unstable: the top in the vertical position", along=())
+    stability_margin = number(
+        "1",
+        "(spin / critical spin)^2 - 1, of the vertical position; infinite if nothing lets it fall",
+        along=(),
+        no_error="a closed form of the numbers as given, exact to rounding",
+    )
     nutation_period = number(
         "s",
         "period of the nutation, the oscillation of theta",
@@ -143,8 +150,9 @@ def euler_angles(
 ) -> TopMotion:
     """Return the motion of the top in time: Euler angles, attitude and angular velocity."""
     from earthspin.top.closed_form import error_bound
+    from earthspin.top.patterns import stability_margin, stability_of
 
-    labelled = inputs.array
+    labelled, margin = inputs.array, stability_margin(heavy_top_start)
     # the error grows with time: the last instants and some before show it
     sample = instants[np.unique(np.linspace(0, instants.size - 1, ERROR_POINTS).astype(int))]
     return TopMotion(
@@ -154,6 +162,8 @@ def euler_angles(
         attitude=labelled(motion.attitude, "time", "quaternion"),
         omega_body=labelled(motion.omega_body, "time", "component"),
         pattern=labelled(motion.pattern),
+        stability=labelled(stability_of(margin)),
+        stability_margin=labelled(margin),
         nutation_period=labelled(motion.nutation_period),
         mean_precession_rate=labelled(motion.precession_rate),
         relative_error=labelled(error_bound(heavy_top_start, sample)),

@@ -32,10 +32,10 @@ def nutation_pattern(start: AxisStart) -> NDArray[np.str_]:
     Returns
     -------
     ndarray of str, shape of the tops
-        ``sleeping``: vertical and at rest (for its stability see `sleeping_top`).
-        ``steady``: theta is constant. ``cusp``: the tip comes to rest at each upper turning
-        point. ``loop``: phi' changes sign. ``wave``: phi' does not change sign; this includes a
-        plane pendulum, and an axis that passes exactly over a pole.
+        ``sleeping``: vertical and at rest, and stable there. ``steady``: theta is constant, also
+        if the axis is vertical and not stable. ``cusp``: the tip comes to rest at each upper
+        turning point. ``loop``: phi' changes sign. ``wave``: phi' does not change sign; this
+        includes a plane pendulum, and an axis that passes exactly over a pole.
         Steady motion and cusps are recognised to within rounding of the start.
     """
     turning = start.b_minus_a * start.b_plus_a < 0  # |b| < |a|
@@ -43,13 +43,33 @@ def nutation_pattern(start: AxisStart) -> NDArray[np.str_]:
     inertia, weight = start.a * start.rate2, start.beta * start.phi_rate * start.sine2
     drive, size = inertia - weight, np.abs(inertia) + np.abs(weight)
     conditions = [
-        start.asleep,
-        _is_steady(start),
+        start.asleep & (stability_margin(top).ravel() > -_ROUNDING),
+        start.asleep | _is_steady(start),
         turning & (np.abs(drive) <= _ROUNDING * size),
         turning & (start.a * drive > 0),
     ]
     names = ["sleeping", "steady", "cusp", "loop"]
     return np.select(conditions, names, default="wave").reshape(np.shape(start.below))
+
+
+def stability_margin(top: HeavyTop) -> FloatArray:
+    """Stability margin of a vertical top, (omega3/critical spin)^2 - 1, negative if it falls.
+
+    It is infinite if the top hangs or has no weight. That of an inclined top is of the vertical
+    position with the centre of mass above the pivot.
+    """
+    vertical, weight = axis_start(top).sine2.reshape(top.shape) == 0, top.weight_moment
+    lifted = np.where(vertical, weight * np.sign(np.cos(top.theta)), np.abs(weight))
+    critical = 2 * np.sqrt(top.transverse_moment * np.maximum(lifted, 0.0)) / top.axial_moment
+    with np.errstate(over="ignore"):
+        ratio = np.abs(top.spin) / np.where(critical > 0, critical, 1.0)
+        margin: FloatArray = np.where(critical > 0, (ratio - 1) * (ratio + 1), np.inf)
+    return margin
+
+
+def stability_of(margin: FloatArray) -> NDArray[np.str_]:
+    """Stability that a margin means: "unstable", "critical" to within rounding, or "stable"."""
+    return np.select([margin < -_ROUNDING, margin <= _ROUNDING], ["unstable", "critical"], "stable")
 
 
 def _is_steady(start: AxisStart) -> BoolArray:

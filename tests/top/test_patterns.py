@@ -6,9 +6,11 @@ import mpmath as mp
 import numpy as np
 import pytest
 
+import earthspin
 from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.patterns import nutation_pattern, steady_precession
 from earthspin.top.start import HeavyTop, axis_start, top_constants
+from earthspin.views.rendering import tables_for
 from tests.top.families import FAMILIES, cases
 from tests.top.textbook import DIGITS, Textbook
 
@@ -119,12 +121,40 @@ def test_steady_precession_is_told_within_rounding(which: str, theta: float) -> 
     np.testing.assert_allclose(motion.phi, steady.phi_rate * np.linspace(0, 10, 50), rtol=5e-15)
 
 
+@pytest.mark.parametrize(
+    ("weight", "theta", "spin", "stability", "pattern"),
+    [  # the critical spin is 2 sqrt(I1 m g r)/I3 (Goldstein, section 5.7): here sqrt(8)
+        (2, 0.0, 2.0, "unstable", "steady"),
+        (2, 0.0, 8**0.5, "critical", "sleeping"),
+        (2, 0.0, 4.0, "stable", "sleeping"),
+        (2, np.pi, 0.0, "stable", "sleeping"),
+        (-2, np.pi, -2.0, "unstable", "steady"),
+        (-2, 0.0, 0.0, "stable", "sleeping"),
+        (0, 0.0, 0.0, "stable", "sleeping"),
+        (2, 0.5, 2.0, "unstable", "cusp"),
+    ],
+)
+def test_a_top_says_whether_it_stays_upright(
+    weight: float, theta: float, spin: float, stability: str, pattern: str
+) -> None:
+    top = earthspin.heavy_top(
+        [0, 1], transverse_moment=1, axial_moment=1, weight_moment=weight, theta=theta, spin=spin
+    )
+    assert (str(top.stability.values), str(top.pattern.values)) == (stability, pattern)
+    falls = weight * np.cos(theta) > 0
+    margin = spin**2 / 8 - 1 if falls else np.inf
+    assert float(top.stability_margin) == pytest.approx(margin, rel=1e-15, abs=1e-15)
+    rows = dict(row for table in tables_for(top) for row in table.rows if len(row) == 2)
+    assert any("stability" in name for name in rows)
+
+
 def test_asleep_on_either_end_whatever_the_spin() -> None:
     for theta in (0.0, np.pi):
         for spin in (0.0, 0.1, 30.0):
             top = HeavyTop(**BODY, theta=theta, spin=spin, phi_rate=0.5)
             motion = heavy_top_motion(top, [0.0, 2.0])
-            assert motion.pattern == "sleeping"
+            falls = theta == 0 and spin < 30  # the critical spin
+            assert motion.pattern == ("steady" if falls else "sleeping")
             assert np.all(motion.theta == theta)
             assert motion.phi[1] == 1.0
             assert motion.psi[1] == pytest.approx(
