@@ -266,9 +266,9 @@ def _run(options: Namespace) -> None:
         if series_length(question) * members_of(question) > time_axes.LONGEST_IN_MEMORY:
             if options.json:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
-            begin = time.perf_counter()
+            begun = time.perf_counter()
             _print_written(write_series(question, long))
-            print(closing_line(store.open(long), time.perf_counter() - begin))
+            print(closing_line(store.open(long), time.perf_counter() - begun))
             return
         if sections is None and data.suffix != ".csv":
             sections = "all"
@@ -306,6 +306,7 @@ def _ensemble(options: Namespace) -> None:
     if members is not None and members.lstrip("+-").isdecimal():
         members = int(members)
     client = options.scheduler if options.workers is None else options.workers
+    begun = time.perf_counter()
     with lines_to(sys.stdout) if options.json else nullcontext():
         answer = ensemble(
             _question(options),
@@ -316,14 +317,18 @@ def _ensemble(options: Namespace) -> None:
             block=options.block,
             impossible="drop" if options.drop else None,
         )
+    computation_time = time.perf_counter() - begun
     if options.json:
         print(json.dumps({"wrote": options.out, "members": answer.sizes["member"]}))
         return
     with _note_of_results(options.out):
+        from earthspin.views.closing_line import closing_line
         from earthspin.views.rendering import print_tables
 
         print_tables(answer)
+        line = closing_line(answer, computation_time)
     _print_written(options.out)
+    print(line)
 
 
 def _plan(options: Namespace) -> None:

@@ -12,11 +12,13 @@ import os
 import signal
 import sys
 import threading
+import time
 import traceback
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from io import TextIOWrapper
+from pathlib import Path
 from types import FrameType
 
 from earthspin.errors import EarthspinError, one_line, printable
@@ -33,6 +35,20 @@ TRACEBACK = "EARTHSPIN_TRACEBACK"
 
 #: What ends a program politely; each leaves it time to clear up as an interrupt does.
 _SIGNALS = [getattr(signal, n) for n in ("SIGTERM", "SIGHUP") if hasattr(signal, n)]
+
+
+#: Time at which this module, among the first of the package, was loaded.
+_LOADED = time.monotonic()
+
+
+def seconds_since_start() -> float:
+    """Wall time since this process began, s; not on Linux, since it loaded earthspin."""
+    try:
+        fields = Path("/proc/self/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
+        begun = int(fields[19]) / os.sysconf("SC_CLK_TCK")
+        return time.clock_gettime(time.CLOCK_BOOTTIME) - begun
+    except (OSError, AttributeError):  # not Linux
+        return time.monotonic() - _LOADED
 
 
 def run_command(command: Callable[[], None], *, show_traceback: bool = False) -> int:

@@ -107,7 +107,7 @@ for name in set(sys.modules) - during:
 
 @pytest.mark.slow
 def test_run_times_of_parts_contain_no_import_of_a_large_library() -> None:
-    """The row of imports has them; a kernel is opened, with its reader, by the part of the sky."""
+    """A run loads them before; a kernel is opened, with its reader, by the part of the sky."""
     scenes = [*shipped_scenes()]
     loaded = watched_after([DURING_PARTS.format(scene) for scene in scenes])
     light = {"jplephem", "erfa", "skyfield"}  # 1, 7 and 24 ms

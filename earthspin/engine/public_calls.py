@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 import textwrap
+import time
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
@@ -64,8 +65,10 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
         if not {*named} <= {ALL, name}:
             problem = f"an ensemble has only the section '{name}'; request that or none"
             raise SceneError("sections", sections, problem)
-        work = Ensemble(question, in_memory=True)
+        begun, work = time.perf_counter(), Ensemble(question, in_memory=True)
         nodes = {"/": work.hold(), "plan": work.nominal_run.plan().dataset()}
+        for duration in ("wall_time", "computation_time"):  # of all members
+            nodes["plan"][duration][...] = time.perf_counter() - begun
         if named:
             nodes[name] = work.nominal_run.tree(name).earthspin.section(name)
         return xr.DataTree.from_dict(nodes)

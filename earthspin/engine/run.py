@@ -28,12 +28,11 @@ from earthspin.engine.variables import (
 )
 from earthspin.errors import SceneError, UndefinedError, nearest
 from earthspin.html_table import card
+from earthspin.number_text import plain
 
 if TYPE_CHECKING:
     import pandas as pd
 
-#: Row of the run time for importing modules; the run times of parts exclude it.
-IMPORTS = "imports"
 #: Status of a part whose result of an earlier run was used.
 REUSED = "reused"
 #: Reason for leaving out a part that could run.
@@ -70,10 +69,11 @@ class Plan:
     left_out : dict of str to str
         Reasons for leaving out the other parts, by title of the part.
     seconds : mapping of str to float
-        Run time of each part by name, without imports, and that of imports under `IMPORTS`; empty
-        before the run.
+        Run time of each part by name; empty before the run.
     reused : frozenset of str
         Names of parts whose result of an earlier run was reused.
+    wall_time : float
+        Time since the run began, with the loading of libraries and what is not in parts, s.
     """
 
     question: Question
@@ -82,14 +82,18 @@ class Plan:
     left_out: dict[str, str]
     seconds: Mapping[str, float]
     reused: frozenset[str]
+    wall_time: float
+
+    @property
+    def computation_time(self) -> float:
+        """Sum of the run times of all parts, s."""
+        return sum(self.seconds.values())
 
     @property
     def rows(self) -> list[Row]:
-        """Rows of the plan's table: imports, functions (parts) that run, and functions left out."""
+        """Rows of the plan's table: functions (parts) that run, and functions left out."""
         status, keys = "ran" if self.seconds else "runs", self.question.keys()
-        note = "modules loaded on first use, once in each process"
-        cost = self.seconds.get(IMPORTS)
-        rows = [] if cost is None else [Row(IMPORTS, status, note, cost)]
+        rows = []
         for part in self.parts:
             state = REUSED if part.name in self.reused else status
             summary = part.description(keys)
@@ -103,7 +107,7 @@ class Plan:
         return pd.DataFrame(self.rows)
 
     def dataset(self) -> xr.Dataset:
-        """Return the table of this plan as a Dataset along `part`."""
+        """Return the table of this plan as a Dataset along `part`, and both times of the run."""
         part, status, reason, seconds = map(list, zip(*self.rows, strict=True))
         why = "description of the part, or reason for leaving it out"
         run_time = {"units": "s", "long_name": "run time of the part"}
@@ -113,6 +117,10 @@ class Plan:
             "run_time": ([cost or 0.0 for cost in seconds], run_time),
         }
         rows = {name: variable_of(("part",), *column) for name, column in columns.items()}
+        whole = {"units": "s", "long_name": "time since the run began"}
+        rows["wall_time"] = variable_of((), self.wall_time, whole)
+        whole = {"units": "s", "long_name": "time of the run that its parts took"}
+        rows["computation_time"] = variable_of((), self.computation_time, whole)
         return xr.Dataset(
             rows, {"part": labels_of("part", part, {"long_name": "part of the plan"})}
         )
@@ -126,6 +134,8 @@ class Plan:
             for row in rows:
                 cost = f"  [{row.run_time}]" if row.run_time else ""
                 lines.append(f"  {row.part:<{width}}  {row.reason}{cost}")
+        if self.seconds:
+            lines += ["", run_time_words(self.wall_time, self.computation_time)]
         return "\n".join(lines)
 
     __repr__ = __str__
@@ -133,6 +143,11 @@ class Plan:
     def _repr_html_(self) -> str:
         rows = [(row.part, row.status, row.reason, row.run_time) for row in self.rows]
         return card(self.question.title, rows)
+
+
+def run_time_words(wall_time: float, computation_time: float) -> str:
+    """Both times of a run, s, as text: ``"2.1 s, of it 0.03 s computation"``."""
+    return f"{plain(wall_time)} s, of it {plain(computation_time)} s computation"
 
 
 # --- run ------------------------------------------------------------------------------------------
@@ -162,6 +177,7 @@ class Run:
         self.question, self.graph, self.keys = question, question.graph, question.keys()
         self.values: dict[str, Any] = self.keys | values
         self._seconds: dict[str, float] = {}
+        self._begun = time.perf_counter()
         self._reused: set[str] = set()
         self._reasons: dict[str, str] = {}
         self._dependencies: dict[str, dict[str, None]] = {}
@@ -245,7 +261,7 @@ class Run:
         parts = tuple(graph.parts[name] for name in self.dependencies(ends) if name in graph.parts)
         others = {name: part.title for name, part in graph.parts.items() if part not in parts}
         left_out = {title: self.why_not(n) or NOT_REQUESTED for n, title in others.items()}
-        ran = dict(self._seconds), frozenset(self._reused)
+        ran = dict(self._seconds), frozenset(self._reused), time.perf_counter() - self._begun
         return Plan(self.question, parts, tuple(names), left_out, *ran)
 
     def _named(self, sections: str | Iterable[str]) -> list[str]:
@@ -355,13 +371,11 @@ class Run:
 
     def _load_modules(self, names: Iterable[str]) -> None:
         """Import the modules that some parts (functions) need, so that run times exclude this."""
-        begun = time.perf_counter()
         _load_xarray()
         for name in self.dependencies(names):
             if name in self.graph.parts:
                 for module in self.graph.parts[name].loads:
                     import_module(module)
-        self._seconds[IMPORTS] = self._seconds.get(IMPORTS, 0.0) + time.perf_counter() - begun
 
     def _refuse_taken_dimensions(self) -> None:
         """Raise an error if an input array has a dimension whose name the results already use."""

@@ -7,38 +7,39 @@ from collections.abc import Hashable
 import numpy as np
 import xarray as xr
 
-from earthspin.engine.run import IMPORTS
+from earthspin.engine.run import run_time_words
 from earthspin.engine.variables import error_of, from_si, largest_of
 from earthspin.number_text import plain, shown_unit
+from earthspin.process import seconds_since_start
 from earthspin.views.result_contents import Result, dataset_of, question_of
 
 #: Words for shares of an error whose names end otherwise.
 WORDS = {"input": "inputs", "kernel": "positions"}
 
 
-def closing_line(result: Result, seconds: float | None = None) -> str:
-    """One line of text with the error of the main number of a result, and the run time.
+def closing_line(result: Result, computation_time: float | None = None) -> str:
+    """One line of text with the error of the main number of a result, and the time that it took.
 
     Parameters
     ----------
     result : Dataset or DataTree
         Answer to a question. In a series, the largest error is given, with its place. The largest
         neglected effect is named if it is larger than the error.
-    seconds : float, optional
-        Run time, s; that of the parts in the plan of the tree by default.
+    computation_time : float, optional
+        Run time of the computation, s; that in the plan of the tree by default. The line gives
+        first the wall time since this process began.
 
     Returns
     -------
     str
-        Such as ``"precession rate: 95 % error 3.3e-5 arcsec/yr (method 1.3e-5, inputs 3e-5); 0.09 s
-        (+ 0.5 s imports)"``. Without an error it gives the reason.
+        Such as ``"precession rate: 95 % error 3.3e-5 arcsec/yr (method 1.3e-5, inputs 3e-5); 2.1 s,
+        of it 0.03 s computation"``. Without an error it gives the reason.
     """
     answer = dataset_of(result)
-    cost = "" if seconds is None else f"{plain(seconds)} s"
     if isinstance(result, xr.DataTree) and "plan" in result.children:
-        run_time = result["plan"].run_time
-        imports = float(run_time.sel(part=IMPORTS)) if IMPORTS in run_time.part else 0.0
-        cost = f"{plain(float(run_time.sum()) - imports)} s (+ {plain(imports)} s imports)"
+        computation_time = float(result["plan"].computation_time)
+    known = computation_time is not None
+    cost = run_time_words(seconds_since_start(), computation_time) if known else ""
     return "; ".join(filter(None, (_error(answer), *_conditions(result), cost)))
 
 

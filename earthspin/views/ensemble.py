@@ -64,13 +64,13 @@ def tables(tree: Result) -> list[TextTable]:
 def _spread(answer: xr.Dataset) -> xr.Dataset:
     """Median and half-width of the central 95 % of each quantity that differs among the members."""
     names = [*dict.fromkeys(number.name for number in _numbers(answer))]
-    spread = answer.earthspin.quantiles()[names]
+    spread = answer.earthspin.quantiles()[names].reset_coords(drop=True)
     low, middle, high = (spread.isel(quantile=k, drop=True) for k in range(3))
     half = ((high - low) / 2).rename({name: f"{name}_error" for name in names})
     for name in names:
         middle[name].attrs["ancillary_variables"] = f"{name}_error"
         half[f"{name}_error"].attrs["units"] = middle[name].attrs.get("units", "")
-    merged: xr.Dataset = middle.merge(half, compat="override")
+    merged: xr.Dataset = middle.merge(half)
     return merged
 
 

@@ -180,7 +180,7 @@ def plot(answer: Answer) -> list[Figure]:
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:
-    """Print the tables of a result and, if `with_plan`, a table of the computations that ran."""
+    """Print lead and tables of a result and, if `with_plan`, a table of what was computed."""
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
@@ -271,7 +271,8 @@ def run_time_tables(*trees: Result) -> list[TextTable]:
             rows.append((part, f"left out: {reason}", ""))
     title = "Parts that ran, and parts left out" if len(trees) == 1 else "Parts that ran"
     headers = "part", "what it computes", "ms"
-    cost = f"{sum(float(parts.run_time.sum()) for parts in plans):.2f} s in total"
+    wall, computation = (sum(float(p[f"{n}_time"]) for p in plans) for n in ("wall", "computation"))
+    cost = run_time_words(wall, computation)
     return [TextTable(title, headers, rows, words=(0, 1), cost=cost)] if plans else []
 
 

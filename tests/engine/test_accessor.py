@@ -31,7 +31,7 @@ def test_the_plan_is_a_table_with_its_seconds() -> None:
     assert rows["wobble-rungs"].seconds is not None
     assert rows["wobble-rungs"].seconds > 0
     assert rows["sensitivity"].seconds is None
-    assert len(plan.to_frame()) == len(Wobble.graph.parts) + 1  # and the imports
+    assert len(plan.to_frame()) == len(Wobble.graph.parts)
 
 
 def test_an_answer_without_labels_is_one_row() -> None:

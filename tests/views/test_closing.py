@@ -1,6 +1,10 @@
 """The line that ends `run` and `report`: the error of the headline number, and its cost."""
 
 import re
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import astropy.units as u
 import numpy as np
@@ -34,10 +38,11 @@ def test_the_numbers_of_the_line_are_those_of_the_answer(precession_tree: xr.Dat
     shown = [float(number) for number in re.findall(r"(?<= )\d[\d.]*e-\d+", line.split(";")[0])]
     names = ["precession_rate_error" + share for share in ("", "_method", "_input")]
     assert np.allclose(shown, [float(total[name]) for name in names], rtol=0.05, atol=0)
-    run_time = precession_tree["plan"].run_time
-    work, imports = map(float, re.findall(r"([\d.e-]+) s(?: \(| imports)", line))
-    assert work == pytest.approx(float(run_time.drop_sel(part="imports").sum()), rel=0.05, abs=0)
-    assert imports == pytest.approx(float(run_time.sel(part="imports")), rel=0.05, abs=0)
+    plan = precession_tree["plan"]
+    (work,) = map(float, re.findall(r"of it ([\d.e-]+) s computation", line))
+    assert work == pytest.approx(float(plan.run_time.sum()), rel=0.05, abs=0)
+    assert float(plan.computation_time) == pytest.approx(float(plan.run_time.sum()))
+    assert float(plan.wall_time) > float(plan.computation_time)
 
 
 def test_a_series_gives_its_largest_error_and_the_date() -> None:
@@ -73,5 +78,20 @@ def test_it_is_the_last_line_of_the_command(capsys: pytest.CaptureFixture[str]) 
     assert cli.main(["run", "wobble"]) == 0
     last = capsys.readouterr().out.splitlines()[-1]
     assert re.fullmatch(
-        r"period solar: largest 95 % error .* d at \w+; .* s \(\+.* imports\)", last
+        r"period solar: largest 95 % error .* d at \w+; .* s, of it .* s computation", last
     )
+
+
+@pytest.mark.parametrize(
+    "words", ["run precession", "ensemble precession --members 10 --out {}/e.zarr"]
+)
+def test_the_line_gives_the_wall_time_of_the_process(words: str, tmp_path: Path) -> None:
+    """As a clock outside has it; the process was 0.3 s long, or longer, before it was asked."""
+    command = [sys.executable, "-m", "earthspin", *words.format(tmp_path).split()]
+    begun = time.monotonic()
+    process = subprocess.run(command, capture_output=True, text=True, check=True)
+    outside = time.monotonic() - begun
+    last = process.stdout.splitlines()[-1]
+    inside, work = map(float, re.findall(r"; (\S+) s, of it (\S+) s computation$", last)[0])
+    assert 0.5 * outside < inside < outside + 0.05 + 0.05 * inside
+    assert work < inside
