@@ -48,7 +48,8 @@ _lazy.METHODS |= {
     "to_iers_table": "earthspin.questions.forecast",
 }
 
-__all__ = ["__version__", *sorted(_MODULE_OF)]
+#: Without `open`, so that ``from earthspin import *`` leaves that of Python alone.
+__all__ = ["__version__", *sorted(_MODULE_OF.keys() - {"open"})]
 
 
 def __getattr__(name: str) -> object:
@@ -63,4 +64,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return list(__all__)
+    return [*__all__, "open"]

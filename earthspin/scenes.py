@@ -219,7 +219,11 @@ def _changed(
     table: dict[str, Any], changes: Mapping[str, Any], source: str, title: str, typed: set[str]
 ) -> Question:
     """Build a question from the table of inputs of a scene, with new values for some keys."""
-    set_before: list[str] = []
+    word = changes.get("compute", table.get("compute"))
+    if word is None:
+        raise SceneError("compute", None, f"it is missing; {nearest('', QUESTIONS)}", source=source)
+    question, set_before = question_named(word, source), list[str]()
+    table, changes = (question.without_own_table(keys, source) for keys in (table, changes))
     for key, value in changes.items():
         leaves = [*_leaves(str(key), value)]
         for before in set_before:
@@ -227,9 +231,7 @@ def _changed(
                 raise SceneError(before, value, f"{TWICE}, and tables first", source=source)
         set_before += leaves
         _set_key(table, str(key), value, source)
-    if "compute" not in table:
-        raise SceneError("compute", None, f"it is missing; {nearest('', QUESTIONS)}", source=source)
-    question = question_named(table.pop("compute"), source)
+    del table["compute"]
     for groups in question.exclusive:  # `times` replace the scene's `span` and `step`
         for group in groups:
             if not changes.keys().isdisjoint(group):

@@ -46,6 +46,9 @@ def test_no_class_is_without_an_example() -> None:
 
 def test_the_nearest_word_comes_first() -> None:
     assert errors.nearest("torqe", ["torque", "wobble"]).startswith("did you mean 'torque'?")
+    fields = ["body.triaxiality", "body.j2"]
+    assert errors.nearest("body.obliquity", fields).startswith("allowed")  # one table, no more
+    assert errors.nearest("body.j_2", fields).startswith("did you mean 'body.j2'?")
     assert errors.nearest("xyz", ["torque", "wobble"]) == "allowed: torque, wobble"
 
 

@@ -151,9 +151,10 @@ def test_public_names_alone_are_shown() -> None:
         "import earthspin; earthspin.plan('wobble'); earthspin.ensemble\n"
         "assert earthspin.bodies.JUPITER.name == 'jupiter'\n"
         "assert not hasattr(earthspin, 'nothing') and not hasattr(earthspin.views, 'nothing')\n"
-        "assert dir(earthspin) == sorted(earthspin.__all__)\n"
+        "assert dir(earthspin) == sorted([*earthspin.__all__, 'open'])\n"
         "for name in dir(earthspin): getattr(earthspin, name)\n"
-        "assert dir(earthspin) == sorted(earthspin.__all__)"
+        "assert dir(earthspin) == sorted([*earthspin.__all__, 'open'])\n"
+        "from earthspin import *; assert open is __builtins__.open and read is earthspin.open"
     )
     modules_after(program)
 

@@ -101,8 +101,11 @@ def public_call(question: type[Question], **parts: Any) -> Callable[..., xr.Data
         ends = {end: values.pop(end, None) for end in ENDS if end in question.positional}
         missing = [end for end, value in ends.items() if value is None]
         if len(missing) == 1:
-            raise SceneError(missing[0], None, "give both start and stop, or times")
+            others = [name for name in ("times", "file") if name in signature.parameters]
+            raise SceneError(missing[0], None, f"give both start and stop, or {others[0]}=...")
         if ends and not missing:
+            if "span" in values:
+                raise SceneError("span", values["span"], "give either start and stop, or span")
             values["span"] = tuple(ends.values())
         return answer(question(**values))
 
@@ -120,7 +123,7 @@ def arguments_of(question: type[Question]) -> dict[str, Key | None]:
     The arguments `start` and `stop` are not keys; they map to None.
     """
     keys = {name: entry for name, entry in keys_of(question).items() if name != "title"}
-    ends = "start" in question.positional
+    ends = "step" in question.positional  # without, a span is one word or two
     rest = [n for n in keys if n not in question.positional and not (ends and n == "span")]
     return {name: keys.get(name) for name in (*question.positional, *rest)}
 

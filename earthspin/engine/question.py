@@ -303,19 +303,32 @@ class Question:
         SceneError, UnitsError
             If a key is unknown, missing or wrong.
         """
-        values: dict[str, Any] = ({"title": title} if title else {}) | dict(table)
-        settings = values.pop(cls.table, {}) if cls.table else {}
-        if not isinstance(settings, Mapping):
-            raise SceneError(cls.table, settings, f"it is a table: [{cls.table}]", source=source)
-        own = {name for name, entry in keys_of(cls).items() if entry.setting}
-        for name, value in values.items():
-            if name in own:
-                problem = f"it belongs in the table [{cls.table}]"
-                raise SceneError(name, value, problem, source=source)
-        for name, value in settings.items():
-            if name not in own:
-                raise SceneError(f"{cls.table}.{name}", value, nearest(name, own), source=source)
-        return cls.__new__(cls)._fill(values | dict(settings), {}, source, True, typed)
+        values = ({"title": title} if title else {}) | cls.without_own_table(table, source)
+        return cls.__new__(cls)._fill(values, {}, source, True, typed)
+
+    @classmethod
+    def without_own_table(cls, table: Mapping[str, Any], source: str = "") -> dict[str, Any]:
+        """Return a scene, or changes of one, without the question's own table: all keys at the top.
+
+        Users need not know which keys belong in the table.
+
+        Raises
+        ------
+        SceneError
+            If the table is none, or a key is given twice.
+        """
+        own = table.get(cls.table, {}) if cls.table else {}
+        if not isinstance(own, Mapping):
+            raise SceneError(cls.table, own, f"it is a table: [{cls.table}]", source=source)
+        values: dict[str, Any] = {}
+        others = ((str(name), value) for name, value in table.items() if name != cls.table)
+        for name, value in (*others, *own.items()):
+            bare = name.removeprefix(f"{cls.table}.")
+            if bare in values:
+                problem = f"it is given twice, with the table [{cls.table}] and without"
+                raise SceneError(bare, value, problem, source=source)
+            values[bare] = value
+        return values
 
     def to_table(self, *, given: bool = False) -> dict[str, Any]:
         """Convert the question to a table for a scene file, with the values of all keys.

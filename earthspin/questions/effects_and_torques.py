@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from typing import Annotated
 
 import numpy as np
@@ -37,7 +38,7 @@ KNOWN, WITHOUT_INTERIOR = "known", "rigid"
 
 
 class EffectNames(Several):
-    """Kind of input: names of effects, or one word for several: "known", "rigid" or "all"."""
+    """Kind of input: names of effects, and words for several: "known", "rigid" or "all"."""
 
     @property
     def hint(self) -> str:
@@ -51,17 +52,16 @@ class EffectNames(Several):
 
     def read(self, value: object, where: Where) -> tuple[str, ...]:
         """Check a word or a list of effect names, and return a tuple; "all" gives all names."""
-        if isinstance(value, str):
-            word = Word((*EFFECTS, KNOWN, WITHOUT_INTERIOR, "all")).read(value, where)
-            return tuple(EFFECTS) if word == "all" else (word,)
-        return super().read(value, where)
+        words = Several(Word((*EFFECTS, KNOWN, WITHOUT_INTERIOR, "all"))).read(value, where)
+        names = (tuple(EFFECTS) if word == "all" else (word,) for word in words)
+        return tuple(dict.fromkeys(chain.from_iterable(names)))
 
 
 #: Names of effects, as an input.
 Effects = Annotated[tuple[str, ...], EffectNames(Word(EFFECTS))]
 EFFECTS_DOC = (
-    "effects besides the torque of the perturbers on the bulge: names, or one word: known (all "
-    "that are known for the body), rigid (without the response of the interior), all"
+    "effects besides the torque of the perturbers on the bulge: names, and words for several: "
+    "known (all that are known for the body), rigid (without the response of the interior), all"
 )
 
 
@@ -76,9 +76,10 @@ class AxisMotion(DateSeries):
         """Replace "known" or "rigid" by names of effects; refuse `planets` without a kernel."""
         super().check()
         words = {KNOWN: self.known_effects, WITHOUT_INTERIOR: self.rigid_effects}
-        if self.effects and self.effects[0] in words:
-            object.__setattr__(self, "effects", words[self.effects[0]]())
-        elif PLANETS.name in self.effects and all_by_elements(self.body, self.perturbers):
+        names = (words[name]() if name in words else (name,) for name in self.effects)
+        effects = tuple(dict.fromkeys(chain.from_iterable(names)))
+        object.__setattr__(self, "effects", effects)
+        if PLANETS.name in effects and all_by_elements(self.body, self.perturbers):
             problem = "all orbits are given by elements, and this effect needs a kernel"
             remedy = "remove it, or list the planets as perturbers"
             raise self.error("effects", PLANETS.name, f"{problem}: {remedy}")

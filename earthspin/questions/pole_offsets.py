@@ -23,7 +23,13 @@ from earthspin.wobble.record import shortest_span
 FIRST_MJD = 45700.0
 
 
-class PoleOffsets(tables.OfTable, word="pole-offsets", call="pole_offsets", table="pole_offsets"):
+class PoleOffsets(
+    tables.OfTable,
+    word="pole-offsets",
+    call="pole_offsets",
+    table="pole_offsets",
+    positional=("start", "stop"),
+):
     """Observed celestial pole offsets, and the free core nutation in them.
 
     The offsets dX, dY are X, Y observed by very long baseline interferometry minus those of IAU

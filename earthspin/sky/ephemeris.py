@@ -314,6 +314,7 @@ class Ephemeris:
                 " with ".join([self.name, *names]),
                 (date_text(np.min(days), "s"), date_text(np.max(days), "s")),
                 (date_text(start, "s"), date_text(end, "s")),
+                remedy="" if names else _covering(days),
             )
         for step in self._steps(places):
             for _ in self._shares(step, days):
@@ -347,6 +348,17 @@ class Ephemeris:
 def _span(segment: Any) -> tuple[float, float]:
     """First and last day of a segment, TDB from J2000.0."""
     return float(segment.start_jd - J2000_JD), float(segment.end_jd - J2000_JD)
+
+
+#: First and last date of the kernel de440, days from J2000.0: 1549-12-31 and 2650-01-25.
+_DE440 = (-164_359.0, 237_418.0)
+
+
+def _covering(days: FloatArray) -> str:
+    """Kernel or question that covers days from J2000.0, as an end of a message."""
+    if _DE440[0] < np.min(days) and np.max(days) < _DE440[1]:
+        return "ephemeris='de440', which covers 1550 to 2650"
+    return "ask earthspin.long_term, which covers ten million years before and after 2000"
 
 
 @lru_cache

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import earthspin
 from earthspin import EARTH, MOON, EarthspinError, Scene, SceneError, load_scene
 from earthspin.engine.question import Question, scene_text
 from earthspin.scenes import question_named, shipped_scenes, typed_scene
@@ -19,6 +20,8 @@ def read(table: dict[str, Any]) -> Question:
     return question_named(keys.pop("compute", None), "my.toml").from_table(keys, source="my.toml")
 
 
+#: A year, whose ends are 366 days.
+SPAN = ["2015-01-01", "2016-01-01"]
 WRONG = [
     ({}, "compute"),
     ({"compute": "precesion"}, "did you mean 'precession'"),
@@ -46,7 +49,11 @@ WRONG = [
     ({"compute": "torque", "body": {"from": ""}}, "body.from = ''"),
     ({"compute": "free-rotor", "rotor": 3}, "it is a table"),
     ({"compute": "torque", "rotor": {}}, "no such key"),
-    ({"compute": "free-rotor", "omega": ["1 rad/s"] * 3}, "it belongs in the table [rotor]"),
+    (
+        {"compute": "free-rotor", "omega": [1], "rotor": {"omega": [1]}},
+        "omega = [1]: it is given twice",
+    ),
+    ({"compute": "polar-motion", "polar_motion": {"flie": "c04"}}, "did you mean 'file'"),
 ]
 
 
@@ -58,6 +65,47 @@ def test_what_is_wrong_is_one_line(table: dict, words: str) -> None:
     assert words in text
     assert "\n" not in text
     assert text.startswith("my.toml: ")
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"file": "finals", "span": SPAN},
+        {"polar_motion.file": "finals", "polar_motion.span": SPAN},
+        {"polar_motion": {"file": "finals", "span": SPAN}},
+    ],
+)
+def test_a_key_is_found_wherever_it_is_typed(changes: dict[str, Any]) -> None:
+    question = load_scene("polar-motion", changes)
+    assert question.file == "finals"
+    assert np.allclose(question.span.days, [5478.5, 5843.5])  # from J2000.0, 12h
+    assert load_scene("forecast", {"forecast.file": "finals"}).file == "finals"
+    assert load_scene("top-cusp", {"times": ["0 s", "1 s"]}).times.tolist() == [0, 1]
+
+
+def test_a_span_of_observations_is_two_words() -> None:
+    seen = earthspin.polar_motion(*SPAN, file="finals")
+    assert seen.identical(earthspin.polar_motion(span=SPAN, file="finals"))
+    assert seen.time.size == 366
+    assert earthspin.pole_offsets(*SPAN).time.size == 366
+    with pytest.raises(SceneError, match="either start and stop, or span"):
+        earthspin.polar_motion(*SPAN, span=SPAN)
+    with pytest.raises(SceneError, match="both start and stop, or file"):
+        earthspin.polar_motion("eopc01.txt")
+
+
+def test_words_for_effects_stand_beside_names() -> None:
+    known = load_scene("pole", {"effects": "known"}).effects
+    assert load_scene("pole", {"effects": ["rigid", "nonrigid"]}).effects == known
+    assert load_scene("pole", {"effects": ["j3", "known"]}).effects[0] == "j3"
+
+
+@pytest.mark.parametrize(
+    ("year", "words"), [("1800", "ephemeris='de440'"), ("1200", "earthspin.long_term")]
+)
+def test_a_date_without_positions_names_what_covers_it(year: str, words: str) -> None:
+    with pytest.raises(earthspin.CoverageError, match=words):
+        earthspin.torque_series(f"{year}-01-01", f"{year}-02-01", "1 d")
 
 
 def test_files(tmp_path: Path) -> None:
