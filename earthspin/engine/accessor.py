@@ -243,6 +243,8 @@ class Answer:
 
         arrays = {str(n): a for n, a in self.dataset.items() if a.attrs.get("frame") == "GCRS"}
         vectors = [n for n, array in arrays.items() if "component" in array.dims]
+        if not isinstance(name, str):
+            raise SceneError("to_skycoord", name, f"name a vector: {', '.join(vectors)}")
         if name == "" and {"X", "Y", "Z"} <= arrays.keys():
             x, y, z = (arrays[axis] for axis in "XYZ")
         elif name in vectors:

@@ -249,16 +249,24 @@ def _check_chunk(store: Path, name: str, chunk: str, array: Mapping[str, Any]) -
     OutputError
         If the chunk is missing or damaged.
     """
-    length = math.prod(array["chunks"]) * np.dtype(array["dtype"]).itemsize
     try:
-        codec, coded = numcodecs.get_codec(array["compressor"]), (store / name / chunk).read_bytes()
-        intact = len(codec.decode(coded)) == length or array["dtype"] == "|O"
+        coded = (store / name / chunk).read_bytes()
     except FileNotFoundError:
         raise _missing(store, f"{name}/{chunk}") from None
-    except Exception:  # a decoder raises many types for damaged bytes
-        intact = False
-    if not intact:
+    except OSError:
+        coded = b""
+    if not _is_intact(coded, array):
         raise mismatch_error(store, "its numbers or words")
+
+
+def _is_intact(coded: bytes, array: Mapping[str, Any]) -> bool:
+    """Return True if the bytes of a chunk match their checksum and have the size of a chunk."""
+    length = math.prod(array["chunks"]) * np.dtype(array["dtype"]).itemsize
+    try:
+        decoded = numcodecs.get_codec(array["compressor"]).decode(coded)
+    except Exception:  # a decoder raises many types for damaged bytes
+        return False
+    return len(decoded) == length or array["dtype"] == "|O"
 
 
 def _missing(store: Path, chunk: str) -> OutputError:
@@ -281,9 +289,10 @@ class ZarrFolder(LocalStore):
     def __init__(self, root: Path, *, read_only: bool = True) -> None:
         super().__init__(root, read_only=read_only)
         self._opened = identity(root)
+        self._metadata = json.loads((self.root / ".zmetadata").read_bytes())["metadata"]
 
     async def get(self, key: str, prototype: Any = None, byte_range: Any = None) -> Any:
-        """Read a file of the store; check that a chunk exists and can be decoded.
+        """Read a file of the store; check that a chunk exists, can be decoded and has its size.
 
         Raises
         ------
@@ -292,11 +301,10 @@ class ZarrFolder(LocalStore):
         """
         content = await super().get(key, prototype, byte_range)
         check_identity(self.root, self._opened)
-        if _CHUNK.fullmatch(key.rpartition("/")[2]):
+        name, _, chunk = key.rpartition("/")
+        if _CHUNK.fullmatch(chunk):
             if content is None:
                 raise _missing(self.root, key)
-            try:
-                _CODEC.decode(content.to_bytes())
-            except Exception:  # Zarr would raise the error of the decoder
-                raise mismatch_error(self.root, "its numbers or words") from None
+            if not _is_intact(content.to_bytes(), self._metadata[f"{name}/.zarray"]):
+                raise mismatch_error(self.root, "its numbers or words")
         return content

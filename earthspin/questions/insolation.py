@@ -303,7 +303,7 @@ def daily_insolation(
         flux = Number("W/m2", "1361 W/m2", above=0.0, limits="give one number above zero")
         constant = flux.read(solar_constant, Where("solar_constant", _CALL))
     place = _place(latitude, "latitude", np.pi / 2, result)
-    sun = _place(solar_longitude, "solar_longitude", _TURN, result)
+    sun = _place(solar_longitude, "solar_longitude", _TURN, result, place)
     value, error = _with_error(result, place, sun, constant, window, bool(true_longitude))
     error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
     if f"{_NEEDED[0]}_error" not in result:
@@ -319,7 +319,9 @@ def daily_insolation(
     return value.rename(_CALL).assign_coords(daily_insolation_error=error)
 
 
-def _place(value: Any, name: str, limit: float, result: xr.Dataset) -> xr.DataArray:
+def _place(
+    value: Any, name: str, limit: float, result: xr.Dataset, *others: xr.DataArray
+) -> xr.DataArray:
     """Convert latitudes or longitudes to a DataArray in rad; lists get the dimension `name`."""
     where = Where(name, _CALL)
     angle = _in_radians(value, where, limit)
@@ -328,7 +330,7 @@ def _place(value: Any, name: str, limit: float, result: xr.Dataset) -> xr.DataAr
             raise where.error(value, "give one angle, or one list of angles")
         return _labelled(angle, name, units="degree")
     try:
-        xr.align(result["obliquity"], angle, join="exact")
+        xr.align(result["obliquity"], *others, angle, join="exact")
     except ValueError as misfit:
         problem = f"give it the labels of the result, like epoch=result.epoch ({misfit})"
         raise where.error("an array", problem) from None

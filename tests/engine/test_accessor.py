@@ -59,8 +59,8 @@ def test_vectors_become_coordinates_of_astropy() -> None:
     assert start.dec.rad == pytest.approx(np.arctan2(path.Z.values[0], across), abs=1e-15)
 
 
-@pytest.mark.parametrize("name", ["obliquity", "nonsense", ""])
-def test_what_is_no_vector_is_named(name: str) -> None:
+@pytest.mark.parametrize("name", ["obliquity", "nonsense", "", np.array([1.0, 2.0]), ["pole"]])
+def test_what_is_no_vector_is_named(name: object) -> None:
     past = earthspin.long_term("-10 kyr", "0 kyr", "5 kyr")
     with pytest.raises(SceneError, match="pole, ecliptic_pole"):
         past.earthspin.to_skycoord(name)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Literal
 
 import netCDF4
+import numcodecs
 import numpy as np
 import pytest
 import xarray as xr
@@ -115,6 +116,17 @@ def test_xarray_and_zarr_open_a_store_without_a_warning(tmp_path: Path) -> None:
         with xr.open_datatree(path, engine="zarr") as tree:
             assert set(tree.children) == set(answer.children)
         assert zarr.open_group(path, mode="r")["obliquity"][()] == answer.obliquity
+
+
+@pytest.mark.parametrize("rows", [30, 90])
+def test_a_whole_chunk_of_another_size_is_refused(tmp_path: Path, rows: int) -> None:
+    path = store.write(small_series(), tmp_path / "r.zarr")  # 241 rows
+    chunk = path / "torque_magnitude" / "0.0"
+    codec = numcodecs.Zstd(level=0, checksum=True)
+    chunk.write_bytes(codec.encode(np.zeros((rows, 2))))
+    for read in (lambda p: store.open(p).load(), earthspin.verify):
+        with pytest.raises(OutputError, match="do not match the stored checksum"):
+            read(path)
 
 
 def test_a_number_that_another_program_changed_is_noticed(tmp_path: Path) -> None:

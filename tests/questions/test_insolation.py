@@ -323,3 +323,12 @@ def test_a_day_takes_the_place_of_the_longitude_of_a_scene() -> None:
     assert np.allclose(
         found.insolation, insolation(**FEW, longitude=0).insolation, rtol=1e-12, atol=0
     )
+
+
+def test_angles_whose_labels_differ_are_refused() -> None:
+    """They gave three rows, two of them NaN."""
+    past = earthspin.long_term("-1 kyr", "0 kyr", "1 kyr")
+    latitude = xr.DataArray([1.0, 1.1], {"place": [1, 2]})
+    with pytest.raises(EarthspinError, match=r"solar_longitude.*labels"):
+        daily_insolation(past, latitude, latitude.assign_coords(place=[2, 3]))
+    assert daily_insolation(past, latitude, latitude).sizes == {"epoch": 2, "place": 2}
