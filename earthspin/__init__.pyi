@@ -278,6 +278,8 @@ def wobble_ladder(
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
 def polar_motion(
+    start: Date | None = ...,
+    stop: Date | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
@@ -289,6 +291,8 @@ def polar_motion(
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
 def pole_offsets(
+    start: Date | None = ...,
+    stop: Date | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
@@ -396,7 +400,6 @@ __all__ = [
     "long_term",
     "love_numbers",
     "nutation_ladder",
-    "open",
     "plan",
     "polar_motion",
     "polar_motion_from",

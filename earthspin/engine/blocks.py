@@ -20,6 +20,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -247,6 +248,8 @@ def digest(request: Mapping[str, str]) -> str:
 
 #: Time limit for the answer of a scheduler, s.
 TIMEOUT = 10
+#: Time without a single worker after which a run ends, s; a cluster may restart them.
+PATIENCE = 60
 #: The only address on which a local cluster listens, also for its dashboard.
 LOCAL_HOST = "127.0.0.1"
 #: Blocks submitted for each thread of a cluster, so that no thread is idle.
@@ -398,19 +401,48 @@ def _blocks_from_cluster(
 ) -> Iterator[tuple[int, Any]]:
     from distributed import as_completed
 
-    sent = client.scatter(work, broadcast=True, hash=False)
-    threads = sum(client.nthreads().values()) or 1
+    with _lost_workers(client, folder):
+        sent = client.scatter(work, broadcast=True, hash=False)
+        threads = sum(client.nthreads().values()) or 1
     submitted = (client.submit(_make_block, sent, n, folder, pure=False) for n in numbers)
     running = as_completed([*islice(submitted, QUEUED * threads)], loop=client.loop)
-    for future in running:
+    while not running.is_empty():
+        with _lost_workers(client, folder):
+            _wait(running, client)
+            future = next(running)
         try:
             yield future.result()
         except Exception as error:
             if type(error).__module__.partition(".")[0] != "distributed":
                 raise
-            problem = f"the cluster lost a block: {one_line(error)}"
-            raise SceneError("client", str(client.scheduler), problem) from None
+            with _lost_workers(client, folder):
+                raise
         running.update(islice(submitted, 1))
+
+
+def _wait(running: Any, client: Client) -> None:
+    """Wait until a block is done; raise TimeoutError if for `PATIENCE` seconds no worker exists."""
+    checked = alive = time.monotonic()
+    while not running.has_ready():
+        time.sleep(0.01)
+        now = time.monotonic()
+        if now - checked > 1:
+            checked, alive = now, now if client.nthreads() else alive
+        if now - alive > PATIENCE:
+            raise TimeoutError(f"it has had no workers for {PATIENCE} s")
+
+
+@contextmanager
+def _lost_workers(client: Client, folder: Path | None) -> Iterator[None]:
+    """Convert any error of a cluster, such as TimeoutError, to a `SceneError` with the remedy."""
+    try:
+        yield
+    except Exception as error:
+        remedy = "start its workers, and run the same again"
+        if folder is not None:
+            remedy += f", which continues with the blocks that are stored in {folder.name}"
+        problem = f"the cluster lost a block: {one_line(error) or type(error).__name__}; {remedy}"
+        raise SceneError("client", str(client.scheduler), problem) from None
 
 
 @contextmanager

@@ -317,15 +317,16 @@ class Question:
         SceneError
             If the table is none, or a key is given twice.
         """
-        own = table.get(cls.table, {}) if cls.table else {}
+        head = cls.table or cls.word.replace("-", "_")
+        own = table.get(head, {})
         if not isinstance(own, Mapping):
-            raise SceneError(cls.table, own, f"it is a table: [{cls.table}]", source=source)
+            raise SceneError(head, own, f"it is a table: [{head}]", source=source)
         values: dict[str, Any] = {}
-        others = ((str(name), value) for name, value in table.items() if name != cls.table)
+        others = ((str(name), value) for name, value in table.items() if name != head)
         for name, value in (*others, *own.items()):
-            bare = name.removeprefix(f"{cls.table}.")
+            bare = name.removeprefix(f"{head}.")
             if bare in values:
-                problem = f"it is given twice, with the table [{cls.table}] and without"
+                problem = f"it is given twice, with the table [{head}] and without"
                 raise SceneError(bare, value, problem, source=source)
             values[bare] = value
         return values
