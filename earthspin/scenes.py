@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from earthspin._lazy import xr
+from earthspin._lazy import plug_in, xr
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.bodies.body import members
 from earthspin.engine import blocks, public_calls
@@ -33,7 +33,8 @@ from earthspin.units import FileName, Whole, is_whole
 class _Questions(Mapping[str, type[Question]]):
     """Mapping from names of computations (questions), as in scene files, to `Question` classes.
 
-    A module is named after the word of its question, and imported when the class is needed.
+    A module is named after the word of its question, and imported when the class is needed. Another
+    package offers a question by an entry point, which is loaded when a name is not known.
     """
 
     @property
@@ -43,8 +44,11 @@ class _Questions(Mapping[str, type[Question]]):
         return {path.rpartition(".")[2].replace("_", "-"): call for call, path in modules}
 
     def __getitem__(self, word: str) -> type[Question]:
-        call = self.calls[word]
-        return getattr(import_module(MODULES[call]), call).question  # type: ignore[no-any-return]
+        if call := self.calls.get(word):
+            return getattr(import_module(MODULES[call]), call).question  # type: ignore[no-any-return]
+        if (call := plug_in("questions", word)) is None:
+            raise KeyError(word)
+        return call.question  # type: ignore[no-any-return]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.calls)

@@ -11,6 +11,7 @@ from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 
+from earthspin._lazy import plug_in
 from earthspin.constants import DAYS_PER_YEAR, MAS, SPEED_OF_LIGHT, UAS
 from earthspin.motion.forces import Forces, Places, RateLaw
 from earthspin.numerics.arrays import FloatArray
@@ -51,8 +52,23 @@ class Effect:
     coefficient: Coefficient | Literal[""] = ""
 
 
+class _Effects(dict[str, Effect]):
+    """All effects by name; those of other packages are loaded when their names are not known."""
+
+    def __missing__(self, name: str) -> Effect:
+        if (effect := plug_in("effects", name)) is None:
+            raise KeyError(name)
+        return add(effect)
+
+    def __contains__(self, name: object) -> bool:
+        try:
+            return bool(self[str(name)])
+        except KeyError:
+            return False
+
+
 #: All effects by name.
-EFFECTS: dict[str, Effect] = {}
+EFFECTS = _Effects()
 
 
 def add(effect: Effect) -> Effect:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import ChainMap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
@@ -52,7 +53,8 @@ class EffectNames(Several):
 
     def read(self, value: object, where: Where) -> tuple[str, ...]:
         """Check a word or a list of effect names, and return a tuple; "all" gives all names."""
-        words = Several(Word((*EFFECTS, KNOWN, WITHOUT_INTERIOR, "all"))).read(value, where)
+        several = dict.fromkeys((KNOWN, WITHOUT_INTERIOR, "all"))
+        words = Several(Word(ChainMap(several, EFFECTS))).read(value, where)
         names = (tuple(EFFECTS) if word == "all" else (word,) for word in words)
         return tuple(dict.fromkeys(chain.from_iterable(names)))
 

@@ -1,6 +1,10 @@
 """The examples of the pages are built and run as they stand there."""
 
 import re
+import shutil
+import subprocess
+import sys
+import sysconfig
 from pathlib import Path
 from types import ModuleType
 
@@ -11,13 +15,14 @@ import earthspin
 from earthspin import cli
 from earthspin.questions import MODULES
 from tests.docs.lessons import DOCS, built
+from tests.processes import ROOT
 
 EXAMPLES = DOCS / "examples"
 
 
 @pytest.fixture
 def example(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    module = built(EXAMPLES / "surface_gravity.py", monkeypatch)
+    module = built(EXAMPLES / "plugin" / "surface_gravity.py", monkeypatch)
     monkeypatch.setitem(MODULES, "surface_gravity", "surface_gravity")
     return module
 
@@ -100,3 +105,56 @@ def test_the_scenes_of_the_page_on_skyfield(tmp_path: Path) -> None:
         scene.write_text(text)
         found = earthspin.run(earthspin.load_scene(scene, {"step": "30 d"}))
         assert "position" in found.attrs["scene"] or "skyfield" in found.attrs["scene"]
+
+
+#: Runs a question and an effect of the example, by Python and by commands, in an environment that
+#: has it installed.
+PLUGGED = """
+import sys
+from pathlib import Path
+import earthspin
+from earthspin import cli
+folder, modules = Path(sys.argv[1]), {"tidal_tilt", "surface_gravity"}
+earthspin.run("wobble")
+assert not modules & {*sys.modules}
+for name, keys in {
+    "gravity": 'compute = "surface-gravity"',
+    "tilted": 'compute = "pole"\\neffects = ["known", "tidal-tilt"]\\n'
+    'span = ["2000-01-01", "2000-03-01"]\\nstep = "10 d"',
+}.items():
+    scene, data = folder / f"{name}.toml", folder / f"{name}.nc"
+    scene.write_text(keys)
+    assert cli.main(["run", str(scene), "--out", str(data)]) == 0
+    answer = earthspin.run(data)
+    assert earthspin.run(answer).identical(answer)
+    assert cli.main(["plan", str(scene)]) == 0
+    assert cli.main(["run", str(scene), "--out", str(folder / f"{name}.csv")]) == 0
+    members = {"n": 2, "body.j2": {"normal": [1.0826e-3, 1e-9]}}
+    if name == "gravity":
+        members = {"n": 2, "body.flattening": {"normal": [1 / 298.257, 1e-6]}}
+    assert earthspin.ensemble(scene, members).sizes["member"] == 2
+assert answer.earthspin.plot()
+assert "tidal-tilt" in earthspin.load_scene(answer).effects
+assert cli.main(["keys", "surface-gravity"]) == 0
+assert cli.main(["run", str(folder / "gravity.toml"), "--set", "points=3"]) == 0
+assert modules <= {*sys.modules}
+"""
+
+
+@pytest.mark.slow
+def test_a_plug_in_works_where_it_is_installed(tmp_path: Path) -> None:
+    """In an environment of its own, as any user's package."""
+    place = tmp_path / "venv"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", place], check=True)
+    python = place / "bin" / "python"
+    folders = subprocess.check_output(
+        [python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"], text=True
+    )
+    # the libraries of this environment, which may itself be one without system packages
+    site = sysconfig.get_path("purelib")
+    Path(folders.strip(), "libraries.pth").write_text(f"{site}\n{ROOT}\n")
+    copied = shutil.copytree(EXAMPLES / "plugin", tmp_path / "plugin")
+    options = ["--no-deps", "--no-build-isolation", "--quiet", "--disable-pip-version-check"]
+    if subprocess.run([python, "-m", "pip", "install", *options, copied]).returncode:
+        pytest.skip("pip cannot install here")
+    subprocess.run([python, "-c", PLUGGED, tmp_path], check=True, cwd=tmp_path)

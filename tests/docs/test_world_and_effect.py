@@ -15,7 +15,7 @@ from tests.docs.lessons import DOCS, built
 @pytest.fixture
 def tidal_tilt() -> Iterator[ModuleType]:
     before = dict(effects.EFFECTS)
-    yield built(DOCS / "examples" / "tidal_tilt.py")
+    yield built(DOCS / "examples" / "plugin" / "tidal_tilt.py")
     effects.EFFECTS.clear()
     effects.EFFECTS.update(before)
 
