@@ -4,14 +4,10 @@ Functions of the packages above the engine that answers call are registered here
 ``earthspin/__init__.py``.
 """
 
-from functools import cache
 from importlib import import_module
-from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any
 
-from earthspin.errors import EarthspinError, one_line
-
-__all__ = ["FUNCTIONS", "METHODS", "erfa", "plug_in", "registered", "submodule", "xr"]
+__all__ = ["FUNCTIONS", "METHODS", "erfa", "registered", "submodule", "xr"]
 
 #: Modules of the registered functions, by the names of the functions.
 FUNCTIONS: dict[str, str] = {}
@@ -22,30 +18,6 @@ METHODS: dict[str, str] = {}
 def registered(name: str) -> Any:
     """Import the module of a function in `FUNCTIONS` or `METHODS`, and return the function."""
     return getattr(import_module((FUNCTIONS | METHODS)[name]), name)
-
-
-@cache
-def plug_in(group: str, name: str) -> Any:
-    """Load what another package offers under a name as an entry point, ``earthspin.<group>``.
-
-    Returns
-    -------
-    object
-        None if no installed package has the entry point.
-
-    Raises
-    ------
-    EarthspinError
-        If it cannot be loaded.
-    """
-    for entry in entry_points(group=f"earthspin.{group}", name=name):
-        try:
-            return entry.load()
-        except Exception as error:  # any error of someone else's module
-            package = entry.dist.name if entry.dist else entry.value
-            problem = f"'{name}' of the package {package} cannot be loaded: {one_line(error)}"
-            raise EarthspinError(f"{problem}; update or remove that package") from error
-    return None
 
 
 class _Library:

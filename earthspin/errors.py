@@ -26,6 +26,8 @@ LONGEST_MESSAGE = 1000
 
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
+#: First and last date.
+_Dates = tuple[str, str]
 
 
 class EarthspinError(Exception):
@@ -255,20 +257,14 @@ class CoverageError(EarthspinError, ValueError):
     """
 
     def __init__(
-        self,
-        kernel: str,
-        asked: tuple[str, str],
-        coverage: tuple[str, str],
-        what: str = "kernel",
-        remedy: str = "",
+        self, kernel: str, asked: _Dates, coverage: _Dates, what: str = "kernel", remedy: str = ""
     ) -> None:
         self.kernel, self.asked, self.coverage = kernel, asked, coverage
         is_single = asked[0] == asked[1]
         times = asked[0] if is_single else f"span {asked[0]} to {asked[1]}"
         super().__init__(
             f"{times} is outside {what} '{kernel}', which covers {coverage[0]} to {coverage[1]} "
-            f"(TDB); choose a {'time' if is_single else 'span'} inside it or "
-            f"{remedy or f'a longer {what}'}"
+            f"(TDB); choose dates inside it or {remedy or f'a longer {what}'}"
         )
 
 
@@ -434,8 +430,7 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
     table = text[: text.rfind(".") + 1]  # a table that two names share makes them no more similar
     names = {name.removeprefix(table): name for name in words if name.startswith(table)}
     close = difflib.get_close_matches(text.removeprefix(table), names, n=1, cutoff=0.6)
-    close = [names[name] for name in close] or difflib.get_close_matches(text, words, 1, 0.75)
-    hint = f"did you mean '{close[0]}'? " if close else ""
+    hint = f"did you mean '{names[close[0]]}'? " if close else ""
     return f"{hint}allowed: {', '.join(words)}"
 
 

@@ -164,8 +164,9 @@ def signals_held() -> Iterator[None]:
     the main thread only.
     """
     received: list[int] = []
-    is_main = threading.current_thread() is threading.main_thread()
-    numbers = signal.valid_signals() if is_main else ()
+    numbers = (
+        signal.valid_signals() if threading.current_thread() is threading.main_thread() else ()
+    )
     handlers = {number: h for number in numbers if callable(h := signal.getsignal(number))}
     try:
         for number in handlers:

@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from earthspin._lazy import plug_in, xr
+from earthspin._lazy import xr
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.bodies.body import members
 from earthspin.engine import blocks, public_calls
@@ -26,6 +26,7 @@ from earthspin.engine.question import REMOVED, Question, keys_of, scene_of
 from earthspin.engine.run import Plan, Run
 from earthspin.engine.store import open as open_file
 from earthspin.errors import OutputError, SceneError, Where, nearest, no_plain_file
+from earthspin.plug_ins import plug_in
 from earthspin.questions import MODULES, time_axes
 from earthspin.units import FileName, Whole, is_whole
 
@@ -46,9 +47,9 @@ class _Questions(Mapping[str, type[Question]]):
     def __getitem__(self, word: str) -> type[Question]:
         if call := self.calls.get(word):
             return getattr(import_module(MODULES[call]), call).question  # type: ignore[no-any-return]
-        if (call := plug_in("questions", word)) is None:
-            raise KeyError(word)
-        return call.question  # type: ignore[no-any-return]
+        if offered := plug_in("questions", word):
+            return offered.question  # type: ignore[no-any-return]
+        raise KeyError(word)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.calls)

@@ -404,44 +404,30 @@ def _blocks_from_cluster(
     with _lost_workers(client, folder):
         sent = client.scatter(work, broadcast=True, hash=False)
         threads = sum(client.nthreads().values()) or 1
-    submitted = (client.submit(_make_block, sent, n, folder, pure=False) for n in numbers)
-    running = as_completed([*islice(submitted, QUEUED * threads)], loop=client.loop)
-    while not running.is_empty():
-        with _lost_workers(client, folder):
-            _wait(running, client)
-            future = next(running)
-        try:
-            yield future.result()
-        except Exception as error:
-            if type(error).__module__.partition(".")[0] != "distributed":
-                raise
-            with _lost_workers(client, folder):
-                raise
-        running.update(islice(submitted, 1))
-
-
-def _wait(running: Any, client: Client) -> None:
-    """Wait until a block is done; raise TimeoutError if for `PATIENCE` seconds no worker exists."""
-    checked = alive = time.monotonic()
-    while not running.has_ready():
-        time.sleep(0.01)
-        now = time.monotonic()
-        if now - checked > 1:
-            checked, alive = now, now if client.nthreads() else alive
-        if now - alive > PATIENCE:
-            raise TimeoutError(f"it has had no workers for {PATIENCE} s")
+        submitted = (client.submit(_make_block, sent, n, folder, pure=False) for n in numbers)
+        running = as_completed([*islice(submitted, QUEUED * threads)], loop=client.loop)
+        while not running.is_empty():
+            begun = time.monotonic()
+            while not running.has_ready():
+                time.sleep(0.01)
+                if time.monotonic() - begun > PATIENCE and not client.nthreads():
+                    raise TimeoutError(f"it has no workers, and no block came for {PATIENCE} s")
+            yield next(running).result()
+            running.update(islice(submitted, 1))
 
 
 @contextmanager
 def _lost_workers(client: Client, folder: Path | None) -> Iterator[None]:
-    """Convert any error of a cluster, such as TimeoutError, to a `SceneError` with the remedy."""
+    """Convert the errors of a cluster without workers or scheduler to a `SceneError`."""
     try:
         yield
     except Exception as error:
+        cluster = type(error).__module__.partition(".")[0] == "distributed"
+        if not (cluster or isinstance(error, TimeoutError)):
+            raise
         remedy = "start its workers, and run the same again"
-        if folder is not None:
-            remedy += f", which continues with the blocks that are stored in {folder.name}"
-        problem = f"the cluster lost a block: {one_line(error) or type(error).__name__}; {remedy}"
+        remedy += f", which continues with the blocks in {folder.name}" if folder else ""
+        problem = f"the cluster lost a block: {one_line(error)}; {remedy}"
         raise SceneError("client", str(client.scheduler), problem) from None
 
 

@@ -207,7 +207,8 @@ class Question:
 
         A subclass without `word` is no question itself: it holds keys for several questions.
         """
-        cls.word, cls.call, cls.table, cls.positional = word, call, table, positional
+        cls.word, cls.call, cls.table = word, call, table
+        cls.positional = positional or getattr(cls, "positional", ())
         dataclass(frozen=True, init=False, eq=False, repr=False)(cls)
 
     def __init__(self, **values: Any) -> None:

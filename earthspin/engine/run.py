@@ -117,10 +117,9 @@ class Plan:
             "run_time": ([cost or 0.0 for cost in seconds], run_time),
         }
         rows = {name: variable_of(("part",), *column) for name, column in columns.items()}
-        whole = {"units": "s", "long_name": "time since the run began"}
-        rows["wall_time"] = variable_of((), self.wall_time, whole)
-        whole = {"units": "s", "long_name": "time of the run that its parts took"}
-        rows["computation_time"] = variable_of((), self.computation_time, whole)
+        whole = {"wall_time": "time since the run began", "computation_time": "time of its parts"}
+        for name, words in whole.items():
+            rows[name] = variable_of((), getattr(self, name), {"units": "s", "long_name": words})
         return xr.Dataset(
             rows, {"part": labels_of("part", part, {"long_name": "part of the plan"})}
         )

@@ -11,11 +11,11 @@ from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 
-from earthspin._lazy import plug_in
 from earthspin.constants import DAYS_PER_YEAR, MAS, SPEED_OF_LIGHT, UAS
 from earthspin.motion.forces import Forces, Places, RateLaw
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows
+from earthspin.plug_ins import plug_in
 from earthspin.torque.gravity import cross, dot
 
 # --- effects and their register -------------------------------------------------------------------
@@ -56,15 +56,12 @@ class _Effects(dict[str, Effect]):
     """All effects by name; those of other packages are loaded when their names are not known."""
 
     def __missing__(self, name: str) -> Effect:
-        if (effect := plug_in("effects", name)) is None:
-            raise KeyError(name)
-        return add(effect)
+        if effect := plug_in("effects", name):
+            return add(effect)
+        raise KeyError(name)
 
     def __contains__(self, name: object) -> bool:
-        try:
-            return bool(self[str(name)])
-        except KeyError:
-            return False
+        return super().__contains__(name) or bool(plug_in("effects", str(name)) and self[str(name)])
 
 
 #: All effects by name.

@@ -243,8 +243,9 @@ def figure_of(body: Body, spin_rate: float) -> DynamicalFigure:
 
 def with_effects(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
     """Add the effects with the given names to the forces, and return the new forces."""
-    for name, effect in EFFECTS.items():
-        if name in effects:
+    chosen = [EFFECTS[name] for name in effects]
+    for effect in EFFECTS.values():
+        if effect in chosen:
             forces = effect.switch_on(forces, body)
     return forces
 

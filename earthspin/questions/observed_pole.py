@@ -102,7 +102,7 @@ class PoleInput(GivenTable, FileName):
         return is_table(head)
 
 
-class OfTable(Question):
+class OfTable(Question, positional=("start", "stop")):
     """Base class of computations that use a table of the observed pole."""
 
     body: Body = key(EARTH, doc="body whose pole was observed")

@@ -39,13 +39,7 @@ FASTEST = 3 / DAYS_PER_YEAR
 OCEAN_TIDES = 0.027 + 0.142 + 0.056 + 0.171 + 0.058 + 0.331 + 0.158 + 0.040
 
 
-class PolarMotion(
-    tables.OfTable,
-    word="polar-motion",
-    call="polar_motion",
-    table="polar_motion",
-    positional=("start", "stop"),
-):
+class PolarMotion(tables.OfTable, word="polar-motion", call="polar_motion", table="polar_motion"):
     """Observed polar motion, and the free wobble in it.
 
     The section `chandler` is the result of `fit_chandler`, over the middles of sliding windows.

@@ -23,13 +23,7 @@ from earthspin.wobble.record import shortest_span
 FIRST_MJD = 45700.0
 
 
-class PoleOffsets(
-    tables.OfTable,
-    word="pole-offsets",
-    call="pole_offsets",
-    table="pole_offsets",
-    positional=("start", "stop"),
-):
+class PoleOffsets(tables.OfTable, word="pole-offsets", call="pole_offsets", table="pole_offsets"):
     """Observed celestial pole offsets, and the free core nutation in them.
 
     The offsets dX, dY are X, Y observed by very long baseline interferometry minus those of IAU

@@ -123,11 +123,9 @@ class TopMotion(TimesFromStart, error="relative_error"):
     pattern = words("wave, cusp, loop, steady or sleeping", along=())
     stability = words("stable, critical or unstable: the top in the vertical position", along=())
     stability_margin = number(
-        "1",
-        "(spin / critical spin)^2 - 1, of the vertical position; infinite if nothing lets it fall",
-        along=(),
+        "1", "(spin / critical spin)^2 - 1 there; infinite if it cannot fall", along=(),
         no_error="a closed form of the numbers as given, exact to rounding",
-    )
+    )  # fmt: skip
     nutation_period = number(
         "s",
         "period of the nutation, the oscillation of theta",

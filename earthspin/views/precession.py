@@ -28,35 +28,31 @@ PASSED = 2.0
 def lead(tree: Result) -> str:
     """First words of the precession page: periods of each torque, of the wobble, of all effects."""
     answer, known = answer_of(tree), stored_section(tree, "iau_2006")
-    first, last = (
-        measured(answer.isel(perturber=k), "precession_period", "years") for k in (0, -1)
-    )
+    wobble, names = stored_section(tree, "free_wobble"), answer.perturber.values.tolist()
+    ends = (answer.isel(perturber=k) for k in (0, -1))
+    first, last = (measured(row, "precession_period", "years") for row in ends)
     words = f"The axis of {result_contents.body_of(answer)} goes once round in "
-    if answer.sizes["perturber"] > 2:
-        words += (
-            f"{first} by the torque of {in_a_sentence(answer.perturber[0].item())} alone, and in "
-        )
+    if len(names) > 2:
+        words += f"{first} by the torque of {in_a_sentence(names[0])} alone, and in "
     words += (
         f"{last} by the pull of {result_contents.perturbers_of(answer)} on the equatorial bulge"
     )
     if moons := _satellites(answer):
         words += f" and on the orbits of its satellites {moons}, which precess with it"
     words += ", and nothing else."
-    if (wobble := stored_section(tree, "free_wobble")) is not None:
+    if wobble is not None:
         rigid = measured(wobble, "free_wobble_period", "days")
         words += f" Its free wobble takes {rigid} if it is rigid"
         if "observed_period" in wobble:
             words += f", and {measured(wobble, 'observed_period', 'days')} as observed"
         words += "."
-    if known is None:
-        return words
-    period, error = _with_known_effects(known)
-    return (
-        f"{words} All known effects together give a precession period of "
-        f"{tables.with_error(period, error)} years, "
-        f"{period - float(answer.precession_period[-1]):.2f} years more; IAU 2006 has "
-        f"{FULL_TURN / float(known.iau_rate):.3f} years."
-    )
+    if known is not None:
+        period, error = _with_known_effects(known)
+        more = period - float(answer.precession_period[-1])
+        words += " All known effects together give a precession period of "
+        words += f"{tables.with_error(period, error)} years, {more:.2f} years more; IAU 2006 has "
+        words += f"{FULL_TURN / float(known.iau_rate):.3f} years."
+    return words
 
 
 def _satellites(answer: xr.Dataset) -> str:
