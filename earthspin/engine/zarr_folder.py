@@ -266,7 +266,7 @@ def _is_intact(coded: bytes, array: Mapping[str, Any]) -> bool:
         decoded = numcodecs.get_codec(array["compressor"]).decode(coded)
     except Exception:  # a decoder raises many types for damaged bytes
         return False
-    return len(decoded) == length or array["dtype"] == "|O"
+    return bool(len(decoded) == length or array["dtype"] == "|O")
 
 
 def _missing(store: Path, chunk: str) -> OutputError:

@@ -8,7 +8,7 @@ from collections import ChainMap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -53,7 +53,7 @@ class EffectNames(Several):
 
     def read(self, value: object, where: Where) -> tuple[str, ...]:
         """Check a word or a list of effect names, and return a tuple; "all" gives all names."""
-        several = dict.fromkeys((KNOWN, WITHOUT_INTERIOR, "all"))
+        several: dict[str, Any] = dict.fromkeys((KNOWN, WITHOUT_INTERIOR, "all"))
         words = Several(Word(ChainMap(several, EFFECTS))).read(value, where)
         names = (tuple(EFFECTS) if word == "all" else (word,) for word in words)
         return tuple(dict.fromkeys(chain.from_iterable(names)))

@@ -149,8 +149,10 @@ def euler_angles(
     """Return the motion of the top in time: Euler angles, attitude and angular velocity."""
     from earthspin.top.closed_form import error_bound
     from earthspin.top.patterns import stability_margin, stability_of
+    from earthspin.top.start import axis_start
 
-    labelled, margin = inputs.array, stability_margin(heavy_top_start)
+    labelled, top = inputs.array, heavy_top_start
+    margin = stability_margin(axis_start(top)).reshape(top.shape)
     # the error grows with time: the last instants and some before show it
     sample = instants[np.unique(np.linspace(0, instants.size - 1, ERROR_POINTS).astype(int))]
     return TopMotion(

@@ -43,7 +43,7 @@ def nutation_pattern(start: AxisStart) -> NDArray[np.str_]:
     inertia, weight = start.a * start.rate2, start.beta * start.phi_rate * start.sine2
     drive, size = inertia - weight, np.abs(inertia) + np.abs(weight)
     conditions = [
-        start.asleep & (stability_margin(top).ravel() > -_ROUNDING),
+        start.asleep & (stability_margin(start) >= -_ROUNDING),
         start.asleep | _is_steady(start),
         turning & (np.abs(drive) <= _ROUNDING * size),
         turning & (start.a * drive > 0),
@@ -52,19 +52,16 @@ def nutation_pattern(start: AxisStart) -> NDArray[np.str_]:
     return np.select(conditions, names, default="wave").reshape(np.shape(start.below))
 
 
-def stability_margin(top: HeavyTop) -> FloatArray:
+def stability_margin(start: AxisStart) -> FloatArray:
     """Stability margin of a vertical top, (omega3/critical spin)^2 - 1, negative if it falls.
 
     It is infinite if the top hangs or has no weight. That of an inclined top is of the vertical
     position with the centre of mass above the pivot.
     """
-    vertical, weight = axis_start(top).sine2.reshape(top.shape) == 0, top.weight_moment
-    lifted = np.where(vertical, weight * np.sign(np.cos(top.theta)), np.abs(weight))
-    critical = 2 * np.sqrt(top.transverse_moment * np.maximum(lifted, 0.0)) / top.axial_moment
+    falls = (start.beta > 0) & ((start.sine2 > 0) | (start.cosine > 0))
     with np.errstate(over="ignore"):
-        ratio = np.abs(top.spin) / np.where(critical > 0, critical, 1.0)
-        margin: FloatArray = np.where(critical > 0, (ratio - 1) * (ratio + 1), np.inf)
-    return margin
+        margin = start.stability / np.where(falls, 2 * start.beta, 1.0)
+    return np.where(falls, margin, np.inf)
 
 
 def stability_of(margin: FloatArray) -> NDArray[np.str_]:

@@ -38,8 +38,9 @@ def closing_line(result: Result, computation_time: float | None = None) -> str:
     answer = dataset_of(result)
     if isinstance(result, xr.DataTree) and "plan" in result.children:
         computation_time = float(result["plan"].computation_time)
-    known = computation_time is not None
-    cost = run_time_words(seconds_since_start(), computation_time) if known else ""
+    cost = ""
+    if computation_time is not None:
+        cost = run_time_words(seconds_since_start(), computation_time)
     return "; ".join(filter(None, (_error(answer), *_conditions(result), cost)))
 
 
