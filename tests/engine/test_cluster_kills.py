@@ -10,11 +10,13 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import psutil
 import pytest
 
+from earthspin import SceneError
 from earthspin.engine import blocks
 from tests.engine.work import Squares, blocks_in, bytes_of
 
@@ -169,3 +171,16 @@ def test_a_scheduler_killed(
     assert process.returncode != 0
     assert b"the cluster lost a block" in said
     finished(path, undisturbed)
+
+
+@pytest.mark.parametrize("folder", [None, Path("a.zarr.partial")])
+def test_a_cluster_without_workers_says_how_to_continue(folder: Path | None) -> None:
+    """Scatter of dask raises a TimeoutError, which was taken for a full disk."""
+    client: Any = SimpleNamespace(scheduler="tcp://10.0.0.1:8786")
+    with pytest.raises(SceneError) as error, blocks._lost_workers(client, folder):
+        raise TimeoutError("No valid workers found")
+    words = str(error.value)
+    assert "lost a block: No valid workers found; start its workers" in words
+    assert ("a.zarr.partial" in words) is (folder is not None)
+    with pytest.raises(OSError, match="full"), blocks._lost_workers(client, folder):
+        raise OSError("the disk is full")
