@@ -42,7 +42,9 @@ _HOME = {
 _MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for name in names}
 
 # What answers call in packages above the engine, which knows none of these.
-_lazy.FUNCTIONS |= {"load_scene": "earthspin.scenes", "plan": "earthspin.scenes"}
+_lazy.FUNCTIONS |= dict.fromkeys(
+    ("QUESTIONS", "load_scene", "plan", "run_tree"), "earthspin.scenes"
+)
 _lazy.METHODS |= {
     "plot": "earthspin.views.rendering",
     "to_iers_table": "earthspin.questions.forecast",

@@ -145,6 +145,10 @@ def _parser() -> ArgumentParser:
     add("--sections", metavar="NAMES|all", help=words)
     words = "columns of a .csv file, each with its errors (default: those most used)"
     add("--columns", metavar="NAMES|all", help=words)
+    words = "units of columns of a .csv file, e.g. x=mas,epoch=kyr"
+    add("--units", metavar="NAME=UNIT,...", default="", help=words)
+    words = "angles of a .csv file that are given from 0 to one turn"
+    add("--wrap", metavar="NAMES", default="", help=words)
 
     ensemble = of_scene("ensemble", _ensemble, "run an ensemble of a scene")
     add = ensemble.add_argument
@@ -247,18 +251,16 @@ def _run(options: Namespace) -> None:
 
     question, sections = _question(options), _listed(options.sections)
     data = page = None
-    if options.columns is not None and Path(options.out or "").suffix != ".csv":
-        raise SceneError("--columns", options.columns, "give a file, --out FILE.csv")
+    for name in ("columns", "units", "wrap"):
+        if (value := getattr(options, name)) and Path(options.out or "").suffix != ".csv":
+            raise SceneError(f"--{name}", value, "give a file, --out FILE.csv")
     if options.out is not None:
         data, name = Path(options.out), Path(options.scene).stem
         if data.suffix not in ("", ".nc", ".zarr", ".csv") and not data.is_dir():
             raise OutputError(data, "unknown suffix", "give a folder, or a .nc, .zarr or .csv file")
-        if data.suffix == ".csv" and sections is not None:
-            raise SceneError(
-                "--sections",
-                options.sections,
-                "not in a .csv: give a folder or .nc, or use to_csv in Python",
-            )
+        if data.suffix == ".csv" and (sections == "all" or len(sections or ()) > 1):
+            problem = "a .csv has one table: give one section, or a folder or .nc"
+            raise SceneError("--sections", options.sections, problem)
         long = data if data.suffix == ".zarr" else data / f"{name}.zarr"
         if data.suffix not in (".nc", ".zarr", ".csv"):
             data, page = data / f"{name}.nc", data / f"{name}.html"
@@ -274,7 +276,15 @@ def _run(options: Namespace) -> None:
             sections = "all"
     tree = run_tree(question, sections or ())
     if data is not None and data.suffix == ".csv":
-        tree.to_dataset().earthspin.to_csv(data, _listed(options.columns))
+        pairs = (pair.partition("=") for pair in _listed(options.units) or ())
+        units = {name: unit for name, _, unit in pairs}
+        tree.earthspin.to_csv(
+            data,
+            _listed(options.columns),
+            section="".join(sections or ()),
+            units=units,
+            wrap=_listed(options.wrap) or (),
+        )
     elif data is not None:
         store.write(tree, data)
     with _note_of_results(data):

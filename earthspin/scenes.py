@@ -21,8 +21,9 @@ from earthspin.engine import blocks, public_calls
 from earthspin.engine.atomic_writes import as_path
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import ENDLESS, LARGEST_SEED, MOST_PARTS, TWICE, Members
+from earthspin.engine.origin import difference, scene_of
 from earthspin.engine.question import BLOCK as BY_BLOCK
-from earthspin.engine.question import REMOVED, Question, keys_of, scene_of
+from earthspin.engine.question import REMOVED, Question, keys_of
 from earthspin.engine.run import Plan, Run
 from earthspin.engine.store import open as open_file
 from earthspin.errors import OutputError, SceneError, Where, nearest, no_plain_file
@@ -580,7 +581,8 @@ def _scene_of(answer: Any) -> str:
     """Text of the scene from which a stored result was computed; refuse a result without one."""
     text = scene_of(answer)
     if not text:
-        problem = "it has no scene; give a whole answer, not a section, with its attributes"
+        why = difference(answer) or "it has no scene"
+        problem = f"{why}; give a whole answer, not a section, with its attributes"
         raise SceneError("scene", type(answer).__name__, problem)
     return text
 

@@ -3,8 +3,9 @@
 Questions import from here what they declare and run; other packages import the modules.
 """
 
+from earthspin.engine.origin import scene_of
 from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Block, Question, key, part, scene_of, setting
+from earthspin.engine.question import Block, Question, key, part, setting
 from earthspin.engine.run import Run, in_range
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number, si, words
 

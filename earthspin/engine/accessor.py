@@ -18,14 +18,15 @@ from numpy.typing import NDArray
 from earthspin._lazy import METHODS, registered
 from earthspin.engine import atomic_writes
 from earthspin.engine.members import MEMBER
-from earthspin.engine.question import ALL, names_in, scene_of
-from earthspin.engine.variables import texts_as_columns
-from earthspin.errors import SceneError, nearest
+from earthspin.engine.origin import without_lost_units
+from earthspin.engine.question import ALL, names_in
+from earthspin.engine.variables import from_si, texts_as_columns, with_units_of_answers
+from earthspin.errors import SceneError, Where, nearest
 from earthspin.numerics import sampling
-from earthspin.units import real_numbers
+from earthspin.units import real_numbers, unit_factor
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     import pandas as pd
     from astropy.coordinates import SkyCoord
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
 #: Suffix of the names of errors.
 _ERROR = "_error"
 _SHARE_ERROR = "95 % half-width, from the number of members, of the share of the variance"
+#: Relative rounding of the ratio of two units.
+_ROUNDING = 1e-13
 _NO_VECTOR = "the answer has no vector in the GCRS"
 
 
@@ -65,8 +68,16 @@ class Answer:
     """
 
     def __init__(self, answer: xr.Dataset | xr.DataTree) -> None:
-        self.dataset = _without_inherited(answer) if isinstance(answer, xr.DataTree) else answer
+        self._data = answer
         self._sections = answer.children if isinstance(answer, xr.DataTree) else {}
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """The answer itself, with units spelled as in answers if xarray has opened a file."""
+        data = self._data
+        return with_units_of_answers(
+            _without_inherited(data) if isinstance(data, xr.DataTree) else data
+        )
 
     def __getattr__(self, name: str) -> Any:
         """Return a method that another module defines; the module is imported on first use."""
@@ -90,7 +101,7 @@ class Answer:
         return registered("plan")(self.scene)
 
     def section(self, name: str) -> xr.Dataset:
-        """Return one section of a DataTree made by `run_tree`, as a Dataset.
+        """Return one section of an answer as a Dataset; compute it if there is no tree.
 
         A node of a tree inherits the coordinates of the root, by which a table of it would repeat
         each row. The Dataset has only those along its own dimensions.
@@ -107,7 +118,7 @@ class Answer:
         Raises
         ------
         SceneError
-            If the tree has no such section.
+            If the tree or the question has no such section.
 
         Examples
         --------
@@ -116,23 +127,40 @@ class Answer:
         >>> print(tree.earthspin.section("seasons").time_per_degree.round(2).values)
         71.59
         """
+        if isinstance(self._data, xr.Dataset):
+            return registered("run_tree")(self._data, name).earthspin.section(name)  # type: ignore[no-any-return]
         if not isinstance(name, str) or name not in self._sections:  # type: ignore[redundant-expr]
             problem = f"no such section; {nearest(name, self._sections)}; run_tree computes more"
             raise SceneError("section", name, problem)
         return _without_inherited(self._sections[name])
 
-    def to_frame(self, columns: str | Sequence[str] = ALL) -> pd.DataFrame:
+    def to_frame(
+        self,
+        columns: str | Sequence[str] = ALL,
+        *,
+        section: str = "",
+        units: Mapping[str, str] | None = None,
+        wrap: str | Sequence[str] = (),
+    ) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.
 
         The rows are labelled by the dimensions that most variables have. Further dimensions,
         including `component`, `quaternion` and `axis`, become columns. Each error follows its
-        value. If some variables have dimensions, variables without dimensions are omitted.
+        value. If some variables have dimensions, those without are omitted, but for numbers with
+        an error, such as a fitted period, which are repeated in each row.
 
         Parameters
         ----------
         columns : str or sequence of str
             Names of variables, each of which comes with its own errors, or of single columns such
             as ``"pole_x"``; by default all.
+        section : str
+            Section to take in place of the answer; it is computed if it is missing.
+        units : mapping of str to str, optional
+            Other units of variables and labels, such as ``{"x": "mas", "epoch": "kyr"}``; errors
+            have the unit of their variable.
+        wrap : str or sequence of str
+            Angles that wind up, such as ``"longitude_of_perihelion"``, to give from 0 to one turn.
 
         Returns
         -------
@@ -141,7 +169,9 @@ class Answer:
         Raises
         ------
         SceneError
-            If the result has no such column.
+            If the result has no such column, section or angle.
+        UnitsError
+            If a unit has the wrong dimension.
 
         Examples
         --------
@@ -153,10 +183,17 @@ class Answer:
              moon            37613.9
             total            25712.1
         """
-        spread, variables = _spread(self.dataset), [*map(str, self.dataset.variables)]
+        data = self.section(section) if section else self.dataset
+        spread, variables = _spread(without_lost_units(data)), [*map(str, data.variables)]
         requested = names_in(columns, "columns")
         if requested == [ALL]:
-            requested = [str(n) for n, v in spread.data_vars.items() if v.ndim or not spread.sizes]
+            fitted = {n for n, v in spread.data_vars.items() if "ancillary_variables" in v.attrs}
+            fitted |= {e for n in fitted for e in spread[n].attrs["ancillary_variables"].split()}
+            requested = [
+                str(n)
+                for n, v in spread.data_vars.items()
+                if v.ndim or not spread.sizes or n in fitted
+            ]
         # a column belongs to the variable with the longest name with which its own begins
         owners = {
             column: max((v for v in variables if f"{column}_".startswith(f"{v}_")), key=len)
@@ -168,12 +205,38 @@ class Answer:
             if not own and name not in spread.dims:
                 raise SceneError("columns", name, nearest(name, variables))
             names += [column for column in own if column not in names]
-        if not spread.sizes:  # an answer without dimensions is one row
-            return spread.expand_dims("row").to_dataframe().reset_index(drop=True)[names]
-        frame = spread.to_dataframe()
-        return frame.reset_index()[[*map(str, frame.index.names), *names]]
+        if spread.sizes:
+            frame = spread.to_dataframe()
+            names = [*map(str, frame.index.names), *names]
+            frame = frame.reset_index()[names]
+        else:  # an answer without dimensions is one row
+            frame = spread.expand_dims("row").to_dataframe().reset_index(drop=True)[names]
+        own = {name: str(spread[name].attrs.get("units", "1")) for name in names}
+        for name in names_in(wrap, "wrap"):
+            if own.get(name) not in ("deg", "rad", "arcsec", "mas"):
+                raise SceneError("wrap", name, "it is no angle with a unit")
+            frame[name] %= 2 * np.pi * from_si(own[name])
+        for name, unit in (units or {}).items():
+            changed = [c for c in names if c == name or owners.get(c) == name]
+            if not changed or own[changed[0]] == "1":
+                known = ", ".join(c for c in own if own[c] != "1")
+                raise SceneError("units", name, f"columns with a unit: {known}")
+            changed += [c for c in names if c.startswith(name + _ERROR)]
+            for column in (c for c in changed if own[c] == own[changed[0]]):
+                frame[column] = _converted(frame[column], own[column], unit, name)
+            own |= dict.fromkeys((c for c in changed if own[c] == own[changed[0]]), unit)
+        frame.attrs["units"] = own
+        return frame
 
-    def to_csv(self, path: str | Path, columns: str | Sequence[str] | None = None) -> Path:
+    def to_csv(
+        self,
+        path: str | Path,
+        columns: str | Sequence[str] | None = None,
+        *,
+        section: str = "",
+        units: Mapping[str, str] | None = None,
+        wrap: str | Sequence[str] = (),
+    ) -> Path:
         """Write the table of `to_frame` as a CSV file, with units in the names of its columns.
 
         A column is named like ``obliquity (deg)``, and by its name alone if it has no unit, so that
@@ -186,6 +249,8 @@ class Answer:
             As for `to_frame`; ``"all"`` for all. By default those that the question declares: of
             `long_term` obliquity, eccentricity, longitude of perihelion and climatic precession
             with their errors, of most questions all.
+        section, units, wrap
+            As for `to_frame`.
 
         Returns
         -------
@@ -194,7 +259,9 @@ class Answer:
         Raises
         ------
         SceneError
-            If the result has no such column.
+            If the result has no such column, section or angle.
+        UnitsError
+            If a unit has the wrong dimension.
         OutputError
             If the file cannot be written.
 
@@ -202,15 +269,17 @@ class Answer:
         --------
         >>> import earthspin
         >>> past = earthspin.long_term("-2 kyr", "0 kyr", "1 kyr")
-        >>> print(past.earthspin.to_csv("past.csv", "obliquity").read_text().splitlines()[0])
-        epoch (yr),obliquity (deg),obliquity_error (deg)
+        >>> path = past.earthspin.to_csv("past.csv", "obliquity", units={"epoch": "kyr"})
+        >>> print(path.read_text().splitlines()[0])
+        epoch (kyr),obliquity (deg),obliquity_error (deg)
         """
         if columns is None:
-            declared = self.scene.csv_columns if scene_of(self.dataset) else ()
+            question = registered("QUESTIONS").get(self.dataset.attrs.get("compute"))
+            declared = () if section else getattr(question, "csv_columns", ())
             columns = [name for name in declared if name in self.dataset] or ALL
-        frame, spread = self.to_frame(columns), _spread(self.dataset)
-        units = {name: spread[name].attrs.get("units", "1") for name in frame}
-        header = [name if unit == "1" else f"{name} ({unit})" for name, unit in units.items()]
+        frame = self.to_frame(columns, section=section, units=units, wrap=wrap)
+        own = frame.attrs["units"]
+        header = [name if own[name] == "1" else f"{name} ({own[name]})" for name in frame]
         with atomic_writes.replacing(path) as draft:
             frame.to_csv(draft, index=False, header=header)
         return Path(path)
@@ -364,6 +433,13 @@ def _without_inherited(node: xr.DataTree) -> xr.Dataset:
     return data.drop_dims(data.sizes.keys() - node.to_dataset(inherit=False).sizes.keys())
 
 
+def _converted(numbers: Any, own: str, unit: str, name: str) -> Any:
+    """Convert numbers to another unit, by a whole factor if there is one, which adds no digits."""
+    factor = unit_factor(unit, own, Where(f"units of {name}"), own)
+    whole = max(1, round(1 / factor))
+    return numbers * whole if abs(factor * whole - 1) < _ROUNDING else numbers / factor
+
+
 def _spread(dataset: xr.Dataset) -> xr.Dataset:
     """Split variables of a Dataset until all have the same dimensions, as table columns need.
 
@@ -376,9 +452,10 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
     rows = common.most_common(1)[0][0] if common else frozenset()
     for name, array in dataset.data_vars.items():
         along = [str(dim) for dim in array.dims if dim not in rows]
-        for labels in product(*(array[dim].values for dim in along)):
-            column = array.sel(dict(zip(along, labels, strict=True)), drop=True)
-            columns["_".join([str(name), *map(str, labels)])] = column
+        for place in product(*(range(array.sizes[dim]) for dim in along)):
+            at = dict(zip(along, place, strict=True))
+            labels = (str(array[dim].values[number]) for dim, number in at.items())
+            columns["_".join([str(name), *labels])] = array.isel(at, drop=True)
     return xr.Dataset(columns)
 
 

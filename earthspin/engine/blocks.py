@@ -32,9 +32,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.engine import atomic_writes
+from earthspin.engine.origin import with_labels
 from earthspin.engine.question import BLOCK, Block, Question, scene_text
 from earthspin.engine.run import Run
-from earthspin.engine.store import FORMAT, MADE_OF, VERSION, encoding_of, spelled, verify, zarr_of
+from earthspin.engine.store import MADE_OF, OF_FILES, VERSION, encoding_of, verify, zarr_of
+from earthspin.engine.variables import spelled
 from earthspin.errors import MissingExtraError, OutputError, SceneError, Where, one_line
 from earthspin.progress import progress
 from earthspin.units import Whole
@@ -225,7 +227,8 @@ def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Da
     zarr_folder = zarr_of()
     whole = first.nbytes / layout.length(0) * layout.size
     atomic_writes.refuse_what_does_not_fit(folder, whole, f"{layout.size} {layout.along}s")
-    node = spelled(first).assign_attrs({FORMAT: VERSION, MADE_OF: digest(request)})
+    first = with_labels(first.copy(), {layout.along: layout.size})
+    node = spelled(first).assign_attrs(OF_FILES | {MADE_OF: digest(request)})
     encoding = encoding_of(node)
     for name, variable in node.variables.items():
         if layout.along in variable.dims:
@@ -354,7 +357,7 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
         [blocks[n] for n in range(layout.count)], layout.along, data_vars="minimal",
         coords="minimal", compat="override", join="override", combine_attrs="override",
     )  # fmt: skip
-    return whole.assign_attrs(blocks[0].attrs)
+    return with_labels(whole.assign_attrs(blocks[0].attrs))
 
 
 def _complete(work: Work, folder: Path, target: Path, client: object) -> None:

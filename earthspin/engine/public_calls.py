@@ -11,6 +11,7 @@ from typing import Any
 
 from earthspin._lazy import xr
 from earthspin.engine.ensemble import Ensemble
+from earthspin.engine.origin import with_labels
 from earthspin.engine.question import ALL, Graph, Key, Question, define_parts, hint, keys_of
 from earthspin.engine.run import Run
 from earthspin.engine.variables import Neglected, Variable
@@ -40,7 +41,7 @@ def answer(question: Question) -> xr.Dataset:
     """
     if question.members is not None:
         return Ensemble(question, in_memory=True).hold()
-    return Run(question).answer()
+    return with_labels(Run(question).answer())
 
 
 @progress("answer with sections")
@@ -72,7 +73,9 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
         if named:
             nodes[name] = work.nominal_run.tree(name).earthspin.section(name)
         return xr.DataTree.from_dict(nodes)
-    return Run(question).tree(sections)
+    tree = Run(question).tree(sections)
+    with_labels(tree)
+    return tree
 
 
 # --- the public function of a question ------------------------------------------------------------

@@ -417,17 +417,6 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
 # --- text of a scene ------------------------------------------------------------------------------
 
 
-def scene_of(answer: Any) -> str:
-    """Text of the scene (input file) that a result stores; empty if there is none.
-
-    A netCDF file of an earlier version holds the scene as a variable.
-    """
-    text = answer.attrs.get(SCENE)
-    if text is None and SCENE in getattr(answer, "data_vars", ()):
-        text = answer[SCENE].values.tolist()
-    return text if isinstance(text, str) else ""
-
-
 def scene_text(question: Question) -> str:
     """Write a question, with the values of all its inputs, as the text of a scene file."""
     import tomli_w

@@ -441,7 +441,6 @@ def _described(question: Question, parts: Iterable[object]) -> dict[str, str]:
             bodies[name] = " ".join(items)
     references += filter(None, (getattr(result, "reference", "") for result in parts))
     return {
-        "Conventions": "CF-1.11",
         "title": question.title,
         "source": f"earthspin {__version__}",
         "history": f"earthspin {__version__}: compute = {question.word}",

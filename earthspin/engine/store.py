@@ -24,13 +24,16 @@ import numpy as np
 
 from earthspin._lazy import xr
 from earthspin.engine import atomic_writes
-from earthspin.engine.question import SCENE, scene_of
-from earthspin.engine.variables import IN_FILES
+from earthspin.engine.origin import plain_bytes, without_lost_scene
+from earthspin.engine.question import SCENE
+from earthspin.engine.variables import spelled, with_units_of_answers
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
 from earthspin.process import signals_held
 
 #: Attribute of the root: version of the way in which results are stored.
 FORMAT, VERSION = "earthspin_format", 2
+#: Attributes of the root of a new file. Only files have units as CF wants them.
+OF_FILES = {"Conventions": "CF-1.11", FORMAT: VERSION}
 #: Attribute of the root of a netCDF file: SHA-256 of its content.
 CONTENT = "content_sha256"
 #: Attribute of a store that was made in blocks: SHA-256 of the request.
@@ -177,26 +180,12 @@ def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
         "/" if path == "." else f"/{path}": spelled(node.to_dataset(inherit=False))
         for path, node in tree.subtree_with_keys
     }
-    groups["/"] = groups["/"].assign_attrs({FORMAT: VERSION})
+    groups["/"] = without_lost_scene(groups["/"]).assign_attrs(OF_FILES)
     history = groups["/"].attrs.get("history")
     if history is not None:
         stamp = dt.datetime.now(dt.UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
         groups["/"] = groups["/"].assign_attrs(history=f"{stamp} {history}")
     return groups
-
-
-#: Attributes of a variable in a file: units in the spelling of files, and of earthspin.
-UNITS, SHOWN = "units", "units_shown"
-
-
-def spelled(node: xr.Dataset) -> xr.Dataset:
-    """Return a copy with units spelled as in files; `units_shown` holds the original spelling."""
-    node = node.copy()
-    for name, variable in node.variables.items():
-        unit = variable.attrs.get(UNITS)
-        if unit in IN_FILES:
-            node[name].attrs = variable.attrs | {UNITS: IN_FILES[unit], SHOWN: unit}
-    return node
 
 
 def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> None:
@@ -255,16 +244,14 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     """
     import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
 
-    nodes = _read(atomic_writes.as_path(path))
-    for node in nodes.values():
-        for variable in node.variables.values():
-            if SHOWN in variable.attrs:  # a file of earthspin has both spellings
-                variable.attrs[UNITS] = variable.attrs.pop(SHOWN)
+    groups = _read(atomic_writes.as_path(path)).items()
+    nodes = {name: with_units_of_answers(node) for name, node in groups}
     root = nodes["/"]
     root.attrs = {name: value for name, value in root.attrs.items() if name not in _FILE_ATTRIBUTES}
     if SCENE in root.data_vars:  # a file of an earlier version
-        root.attrs[SCENE] = scene_of(root)
-        nodes["/"] = root = root.drop_vars(SCENE)
+        root.attrs[SCENE] = root[SCENE].values.tolist()
+        root = root.drop_vars(SCENE)
+    nodes["/"] = root = without_lost_scene(root)
     if "history" in root.attrs:  # the date belongs to the file
         root.attrs["history"] = _STAMP.sub("", root.attrs["history"])
     return root if len(nodes) == 1 else xr.DataTree.from_dict(nodes)
@@ -399,7 +386,7 @@ def _unreadable(path: Path, error: Exception) -> EarthspinError:
 
 
 #: Attributes of the file that are not part of the answer.
-_FILE_ATTRIBUTES = (FORMAT, CONTENT, MADE_OF)
+_FILE_ATTRIBUTES = (*OF_FILES, CONTENT, MADE_OF)
 #: Pattern of the date at the start of a file's history.
 _STAMP = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ ")
 
@@ -453,7 +440,7 @@ def content_hash(groups: Mapping[str, xr.Dataset]) -> str:
     for group, node in sorted(groups.items()):
         total.update(repr((group, _listed(node.attrs))).encode("utf-8", "surrogatepass"))
         for name, variable in sorted(node.variables.items(), key=lambda item: str(item[0])):
-            kind, content = _bytes(variable.values)
+            kind, content = plain_bytes(variable.values)
             head = (name, dict(variable.sizes), kind, _listed(variable.attrs), len(content))
             total.update(repr(head).encode("utf-8", "surrogatepass"))
             total.update(content)
@@ -464,17 +451,3 @@ def _listed(attrs: Mapping[Any, Any]) -> list[tuple[str, list[Any]]]:
     """Sorted attributes, with values as lists, because netCDF turns a list of one into a number."""
     values = {k: [v] if isinstance(v, str) else np.ravel(v).tolist() for k, v in attrs.items()}
     return sorted((name, value) for name, value in values.items() if name != CONTENT)
-
-
-def _bytes(values: np.ndarray[Any, Any]) -> tuple[str, bytes]:
-    """Type and bytes of an array, in a form that does not depend on machine or file format."""
-    kind = values.dtype.kind
-    if kind in "OUST":
-        words = [
-            w.decode("utf-8", "replace") if isinstance(w, bytes) else str(w) for w in values.flat
-        ]
-        return "words", repr(words).encode()
-    if kind == "M":
-        values = values.astype("M8[us]").astype(np.int64)
-    ordered = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
-    return f"{kind}{ordered.itemsize}", ordered.tobytes()

@@ -58,14 +58,19 @@ IN_FILES: dict[str, str] = {
 }
 
 
+#: Spelling of units in answers, by that in files.
+IN_ANSWERS = {spelled: unit for unit, spelled in IN_FILES.items()}
+
+
 def from_si(unit: str) -> float:
-    """Return the factor that converts a value from SI to a given unit.
+    """Return the factor that converts a value from SI to a given unit of answers or of files.
 
     Raises
     ------
     SceneError
         If the unit is not among those of results.
     """
+    unit = IN_ANSWERS.get(unit, unit)
     if unit not in FROM_SI:
         raise SceneError("units", unit, nearest(unit, [u for u in FROM_SI if u]))
     return FROM_SI[unit]
@@ -80,6 +85,30 @@ def si(array: xr.DataArray) -> xr.DataArray:
         If its unit is not among those of results.
     """
     return array / from_si(array.attrs.get("units", ""))
+
+
+#: Attributes of a variable in a file: units in the spelling of files, and of earthspin.
+UNITS, SHOWN = "units", "units_shown"
+
+
+def spelled(node: xr.Dataset) -> xr.Dataset:
+    """Return a copy with units spelled as in files; `units_shown` holds the original spelling."""
+    node = node.copy()
+    for name, variable in node.variables.items():
+        unit = variable.attrs.get(UNITS)
+        if unit in IN_FILES:
+            node[name].attrs = variable.attrs | {UNITS: IN_FILES[unit], SHOWN: unit}
+    return node
+
+
+def with_units_of_answers(data: xr.Dataset) -> xr.Dataset:
+    """Return a copy of data, of a file or not, with units spelled as in answers."""
+    data = data.copy()
+    for variable in data.variables.values():
+        own = IN_ANSWERS.get(str(variable.attrs.get(UNITS)), "")
+        if unit := variable.attrs.pop(SHOWN, own):
+            variable.attrs[UNITS] = unit
+    return data
 
 
 # --- declarations ---------------------------------------------------------------------------------
@@ -110,6 +139,8 @@ class Variable:
         Why there is no error.
     short : str
         Label of tables and axes.
+    shown : str
+        Unit of tables and axes, if not that of the numbers.
     default : object
         Default value; ``...`` if a value is required. A field whose value is None is omitted from
         the answer.
@@ -128,6 +159,7 @@ class Variable:
     error: str = ""
     no_error: str = ""
     short: str = ""
+    shown: str = ""
     default: Any = ...
     endings: Mapping[str, str] = field(default_factory=dict)
     attrs: Mapping[str, str] = field(default_factory=dict)
@@ -146,7 +178,7 @@ class SchemaError(Exception):
 
 
 #: Options of a field; others are attributes of its variables.
-_OPTIONS = {"along", "error", "no_error", "short", "default"}
+_OPTIONS = {"along", "error", "no_error", "short", "shown", "default"}
 
 
 def _field(endings: Mapping[str, str], units: str, long_name: str, options: dict[str, Any]) -> Any:
@@ -171,6 +203,8 @@ def number(units: str, long_name: str, **options: Any) -> Any:
         Why there is no error.
     short : str
         Label of tables and axes.
+    shown : str
+        Unit of tables and axes, if not `units`.
     default : object
         ``None`` if an answer may omit the number.
     **options
@@ -247,7 +281,11 @@ class Variables:
         for name, entry in own.items():
             dims = cls.dims if entry.along is None else entry.along
             for ending, meaning in entry.endings.items():
-                declared = Variable(entry.units) if ending.startswith("_error") else entry
+                declared = (
+                    Variable(entry.units, shown=entry.shown)
+                    if ending.startswith("_error")
+                    else entry
+                )
                 long_name = meaning.format(entry.long_name)
                 schema[name + ending] = replace(declared, dims=dims, long_name=long_name)
         for name, variable in schema.items():

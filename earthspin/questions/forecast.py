@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, orbit
 from earthspin.constants import DAY, MAS, NORMAL_95
 from earthspin.dates import SPACING, TABLES, date_text, datetime64, days
 from earthspin.engine import Neglected, Question, Run, key, part, public_call
-from earthspin.engine.variables import Variables, labels, measured, number, words
+from earthspin.engine.variables import Variables, labels, measured, number, si, words
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation
@@ -319,11 +320,16 @@ def skill() -> Skill:
     )
 
 
+_NO_SUM = "the errors of both are correlated, as both use the same observations"
+
+
 class BulletinA(Daily):
     """Polar motion x and y as predicted in Bulletin A of the IERS."""
 
-    bulletin_a_x = measured("arcsec", "x predicted by Bulletin A")
-    bulletin_a_y = measured("arcsec", "y predicted by Bulletin A")
+    bulletin_a_x = measured("arcsec", "x predicted by Bulletin A", shown="mas")
+    bulletin_a_y = measured("arcsec", "y predicted by Bulletin A", shown="mas")
+    x_minus_bulletin_a = number("arcsec", "x minus Bulletin A", shown="mas", no_error=_NO_SUM)
+    y_minus_bulletin_a = number("arcsec", "y minus Bulletin A", shown="mas", no_error=_NO_SUM)
 
 
 def not_in_file(
@@ -345,14 +351,16 @@ def not_in_file(
 
 
 @part(unless=not_in_file)
-def bulletin_a(file: eop.PoleTable, output_days: slice) -> BulletinA:
-    """Read the polar motion predicted by Bulletin A, with 95 % half-widths, from the table."""
+def bulletin_a(file: eop.PoleTable, output_days: slice, forecast_pole: xr.Dataset) -> BulletinA:
+    """Read polar motion predicted by Bulletin A, with 95 % half-widths, and compare it."""
     table = eop.read_bulletin_a(file)
     assert table is not None
     return BulletinA(
         time=datetime64(table.mjd[output_days] - MJD),
         bulletin_a_x=(table.x[output_days], NORMAL_95 * table.x_error[output_days]),
         bulletin_a_y=(table.y[output_days], NORMAL_95 * table.y_error[output_days]),
+        x_minus_bulletin_a=si(forecast_pole.x).values - table.x[output_days],
+        y_minus_bulletin_a=si(forecast_pole.y).values - table.y[output_days],
     )
 
 

@@ -16,6 +16,7 @@ from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import DAY, DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.dates import Epochs, Span, datetime64, days
 from earthspin.engine import Question, Variables, key, labels, measured, number, part, setting, si
+from earthspin.engine.variables import IN_ANSWERS
 from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation
@@ -123,8 +124,8 @@ class Daily(Variables, along=("time",)):
 class DailyPole(Daily):
     """Base class of coordinates x and y of the pole, observed or forecast."""
 
-    x = measured("arcsec", "coordinate of the pole towards the prime meridian")
-    y = measured("arcsec", "coordinate of the pole towards 90 degrees west")
+    x = measured("arcsec", "coordinate of the pole towards the prime meridian", shown="mas")
+    y = measured("arcsec", "coordinate of the pole towards 90 degrees west", shown="mas")
 
 
 def no_observed_pole(body: Body) -> str | None:
@@ -183,10 +184,10 @@ def labelled_series(
         if name not in variables or series[name].dims != ("time",):
             problem = f"give a Dataset with '{name}' along 'time', or a table with that column"
             raise SceneError("series", variables or type(series).__name__, problem)
-        unit, kind = series[name].attrs.get("units"), series[name].dtype
+        unit, kind = str(series[name].attrs.get("units")), series[name].dtype
         if kind.kind != "f" or series["time"].dtype.kind != "M":
             raise SceneError(name, str(kind), "give numbers along dates without a zone")
-        if unit not in units:
+        if IN_ANSWERS.get(unit, unit) not in units:
             allowed = " or ".join(f"'{u}'" for u in units)
             problem = f"set attrs['units'] to {allowed}, or name the column '{name} ({units[0]})'"
             raise SceneError(f"units of {name}", unit, problem)

@@ -120,12 +120,6 @@ def test_the_scene_of_an_answer_can_be_changed() -> None:
     xr.testing.assert_identical(other, earthspin.wobble_ladder(ocean="none"))
 
 
-def test_a_slice_still_says_which_run_it_came_from() -> None:
-    answer = earthspin.run("torque")
-    few = answer[["declination"]].isel(time=slice(3), perturber=0)
-    xr.testing.assert_identical(earthspin.run(few), answer)
-
-
 @pytest.mark.parametrize(
     "attribute", ["earthspin_version", "numpy_version", "jplephem_version", "ephemeris_sha256"]
 )
