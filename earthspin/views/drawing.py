@@ -7,19 +7,21 @@ drawn, so that tables do not wait for it.
 from __future__ import annotations
 
 import io
+import math
 import os
 import re
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from inspect import signature
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 import xarray as xr
 
-from earthspin.views.result_contents import Result, stored_section
+from earthspin.views.result_contents import Result, cases_of, resampled, stored_section
 from earthspin.views.solids import Solid
 from earthspin.views.tables import TextTable
 
@@ -171,6 +173,8 @@ class PageFigure:
         See `Drawing`.
     phone : float
         Height of the same drawn anew for a phone, inches; 0 if it is only made narrower.
+    points : int
+        Number of times at which a closed form is computed for it; 0 for those of the answer.
     """
 
     title: str
@@ -181,20 +185,39 @@ class PageFigure:
     applies: Callable[[Result], bool] | None = None
     square: bool = False
     phone: float = 0.0
+    points: int = 0
 
     def is_there(self, tree: Result) -> bool:
         """Return True if a result has the section and meets the condition of this figure."""
         is_present = not self.section or stored_section(tree, self.section) is not None
         return is_present and (self.applies is None or self.applies(tree))
 
+    def drawings(self, tree: Result) -> list[Drawing]:
+        """Draw the figure for a result that has what it needs; empty for others."""
+        return [self.drawn(tree)] if self.is_there(tree) else []
+
     @style()
     def drawn(self, tree: Result) -> Drawing:
         """Draw the figure for a result; return it with caption and, if needed, a phone version."""
         caption = self.caption(tree) if callable(self.caption) else self.caption
-        figure, phone = figure_of(self.plot(tree)), None
+        cases, phone = cases_of(resampled(tree, self.points) if self.points else tree), None
+        figure = _side_by_side(self.plot, cases)
         if self.phone:
             phone = figure_of(self.plot(tree, ax=axes(None, NARROW, self.phone)))
         return Drawing(self.title, caption, figure, self.square, phone)
+
+
+def _side_by_side(plot: Callable[..., Axes | Figure], cases: Mapping[str, Result]) -> Figure:
+    """Draw several bodies or initial states in one figure; the first if `plot` takes no axes."""
+    takes = signature(plot).parameters
+    if len(cases) == 1 or not {"ax", "figure"} & {*takes}:
+        return figure_of(plot(next(iter(cases.values()))))
+    figure = empty(10, 3.2 * math.ceil(len(cases) / 2))
+    parts = figure.subfigures(math.ceil(len(cases) / 2), 2).flat
+    for part, (words, case) in zip(parts, cases.items(), strict=False):
+        part.suptitle(words)
+        plot(case, **({"ax": part.add_subplot()} if "ax" in takes else {"figure": part}))
+    return figure
 
 
 #: Tables or pictures of a result, each with the names of the sections that it needs.

@@ -340,11 +340,11 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
     answer, bulletin = answer_of(result), stored_section(result, "bulletin_a")
     figure, panels = drawing.stacked(2, 5.2, figure, width=7.5)
     for ax, name, colour in zip(panels, ("x", "y"), (drawing.BLUE, drawing.GREEN), strict=True):
-        value, error = answer[name].values * 1e3, answer[f"{name}_error"].values * 1e3
+        value, error = answer[name].values, answer[f"{name}_error"].values
         drawing.band(ax, answer.time.values, value, error, colour, label="forecast")
         if bulletin is not None:
             how: dict[str, Any] = {"color": drawing.RED, "lw": 1, "ls": "--", "label": "Bulletin A"}
-            ax.plot(bulletin.time, bulletin[f"bulletin_a_{name}"] * 1e3, **how)
+            ax.plot(bulletin.time, bulletin[f"bulletin_a_{name}"], **how)
         ax.set_ylabel(f"{name} (mas)")
         ax.legend(loc="best")
     panels[-1].set_xlabel("time (UTC)")
@@ -365,7 +365,7 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
 
     ax = axes(ax, 6.0, 6.0)
     answer = answer_of(result)
-    x, y = answer.x.values * 1e3, answer.y.values * 1e3
+    x, y = answer.x.values, answer.y.values
     clear = {"fc": "white", "ec": "none", "alpha": 0.7, "pad": 0.5}
     words = f"forecast from {tables.date(answer.time[0])}"
     ax.plot(y, x, color=drawing.BLUE, lw=1.4, label=words, marker="o", markevery=[0], ms=4)
@@ -373,12 +373,12 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     marked = [day for day in ELLIPSES if day < 0.7 * days[-1]]
     for number in (*np.searchsorted(days, marked).tolist(), -1):
         row = answer.isel(time=number)
-        sx, sy = (1e3 * float(row[name]) / ONE_COORDINATE for name in ("x_error", "y_error"))
+        sx, sy = (float(row[name]) / ONE_COORDINATE for name in ("x_error", "y_error"))
         across = float(row.correlation_xy) * sx * sy
         values, vectors = np.linalg.eigh([[sy**2, across], [across, sx**2]])
         width, height = 2 * BOTH * np.sqrt(values)
         turn = np.degrees(np.arctan2(vectors[1, 0], vectors[0, 0]))
-        centre = float(row.y) * 1e3, float(row.x) * 1e3
+        centre = float(row.y), float(row.x)
         words = "95 % ellipse" if number == -1 else ""
         ellipse = Ellipse(centre, width, height, angle=turn, fc="none", ec=drawing.RED, label=words)
         ax.add_patch(ellipse)

@@ -15,7 +15,7 @@ from earthspin.errors import SceneError, listed
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing, result_contents, star_chart, tables, torque
 from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
-from earthspin.views.result_contents import Result, answer_of, changes_of, section, stored_section
+from earthspin.views.result_contents import Result, answer_of, section, stored_section
 from earthspin.views.tables import Column, TextTable, measured, table_along
 
 #: Once round, arcsec.
@@ -174,48 +174,6 @@ def sky_and_calendar(tree: Result) -> TextTable:
     )
 
 
-_MODELS = {
-    "maccullagh": "maccullagh: (C-A)/A = flattening",
-    "homogeneous": "homogeneous: J2 and C = 0.4 M a2",
-    "measured": "measured: observed H",
-}
-
-
-def models(tree: Result) -> TextTable:
-    """Table of H, precession period and wobble period for three models of the Earth's figure."""
-    figure = section(tree, "figure_models")
-    columns = (
-        Column("earth_model", lambda row: _MODELS[row.earth_model.item()], "model"),
-        *("h_by_model:.7f", "period_by_model:.0f", "wobble_by_model:.2f"),
-    )
-    note = (
-        f"J2 gives C - A = {float(figure.moment_difference):.5e} kg m2, and C - A gives back J2 = "
-        f"{float(figure.j2_from_moment_difference):.7e}; C = "
-        f"{float(figure.polar_moment_factor):.6f} M a2. The first two models hold for uniform "
-        "density, not for a body that is denser towards its centre."
-    )
-    title = "Three models of the figure"
-    return table_along(figure, "earth_model", title, columns, note, first="")
-
-
-def free_wobble(tree: Result) -> TextTable:
-    """Table of the free wobble period of the rigid body, and the observed period if known."""
-    wobble = section(tree, "free_wobble")
-    notes = ["The formula holds for a rigid body, as does the error; a real body deforms."]
-    rigid, rows = measured(wobble, "free_wobble_period"), []
-    if "observed_period" in wobble:
-        rows.append(("observed", measured(wobble, "observed_period"), ""))
-        source = wobble.observed_period.attrs["references"]
-        notes.append(f"Source of the observed period: {source}.")
-    sidereal = f"{float(wobble.free_wobble_period_sidereal):.4f}"
-    return TextTable(
-        "Free wobble",
-        ("period", "days of 86400 s", "sidereal days"),
-        [("rigid body, A/(C-A)", rigid, sidereal), *rows],
-        " ".join([*notes, *changes_of(answer_of(tree), "body")]),
-    )
-
-
 def iau(tree: Result) -> TextTable:
     """Table of the computed precession rate compared with that of IAU 2006."""
     known, answer = section(tree, "iau_2006"), answer_of(tree)
@@ -263,8 +221,6 @@ TABLES = [
     ("", rates),
     ("iau_2006", iau),
     ("seasons", sky_and_calendar),
-    ("figure_models", models),
-    ("free_wobble", free_wobble),
     ("standstills", standstills),
 ]
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
 from typing import TYPE_CHECKING, Any, TextIO
@@ -13,9 +15,10 @@ import numpy as np
 import xarray as xr
 
 from earthspin.engine.accessor import is_ensemble
+from earthspin.engine.origin import is_whole, without_lost_units
 from earthspin.engine.run import NOT_REQUESTED, REUSED, run_time_words
 from earthspin.engine.variables import texts_as_columns
-from earthspin.errors import SceneError
+from earthspin.errors import EarthspinError, SceneError
 from earthspin.progress import progress
 from earthspin.scenes import plan, run_tree
 from earthspin.views import (
@@ -29,11 +32,15 @@ from earthspin.views import (
     torque,
     wobble,
 )
-from earthspin.views.drawing import Drawing, Figure, T, Views, style
+from earthspin.views.any_answer import any_drawing
+from earthspin.views.drawing import Drawing, Figure, Makers, T, Views, style
 from earthspin.views.result_contents import (
     Result,
     answer_of,
+    ascending,
     changes_of,
+    dataset_of,
+    laid_out,
     question_of,
     stored_section,
 )
@@ -54,6 +61,10 @@ VIEWS: dict[str, Views] = {
 ERRORS = "work_precision"
 
 
+#: Table of data without variables that tables show, such as errors alone.
+_EMPTY = TextTable("No values", ("quantity", "value"), [])
+
+
 def tables_for(tree: Result) -> list[TextTable]:
     """Tables of a result and its sections, in reading order.
 
@@ -70,43 +81,75 @@ def tables_for(tree: Result) -> list[TextTable]:
         not hold it, or else below the first table.
     """
     answer = answer_of(tree)
-    first, *others = ensemble.tables(tree) if is_ensemble(tree) else _tables(tree)
-    left_out = f"Left out: {answer.attrs['neglected']}."
-    noted = any(left_out in table.note.split("\n") for table in (first, *others))
+    first, *others = (ensemble.tables(tree) if is_ensemble(tree) else _tables(tree)) or [_EMPTY]
+    neglected = answer.attrs.get("neglected", "")
+    left_out = f"Left out: {neglected}."
+    noted = not neglected or any(left_out in t.note.split("\n") for t in (first, *others))
     note = [*changes_of(answer), first.note, "" if noted else left_out]
-    return tables.numbered([replace(first, note="\n".join(filter(None, note))), *others])
+    shown = [replace(first, note="\n".join(filter(None, note))), *others]
+    return tables.with_own_titles(shown)
 
 
 def _tables(tree: Result) -> list[TextTable]:
     """Tables designed for this type of result, then general tables of the other sections."""
-    special = _views(tree).tables
-    shown = {name for sections, _ in special for name in sections.split() or [""]}
-    made = [table for table in _made(tree, special) if table.rows]
-    return [*made, *tables.tables(tree, without=shown)]
+    made = {names: _made(tree, [make]) for names, make in _with_sections(tree, _views(tree).tables)}
+    shown = {name for names, some in made.items() if some for name in names.split() or [""]}
+    special = [table for some in made.values() for table in some if table.rows]
+    return [*special, *tables.tables(tree, without=shown)]
 
 
 def drawings_for(tree: Result) -> list[Drawing]:
-    """Draw all figures of a result and of its sections, with captions."""
-    return [figure.drawn(tree) for figure in _views(tree).figures if figure.is_there(tree)]
+    """Draw all figures of a result and of its sections, with captions.
+
+    Data that have no figure of their own, such as means, are drawn over their longest dimension.
+    """
+    figures = [] if _is_one_instant(tree) else _views(tree).figures
+    drawings = [d for made in _made(tree, [figure.drawings for figure in figures]) for d in made]
+    whole = is_whole(dataset_of(tree))
+    return drawings if drawings or whole else any_drawing(ascending(laid_out(dataset_of(tree))))
 
 
 def solids_for(tree: Result) -> list[Solid]:
     """Make all three-dimensional pictures, still or animated, of a result."""
-    return _made(tree, _views(tree).solids)
+    return _made(tree, [make for _, make in _with_sections(tree, _views(tree).solids)])
 
 
-def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
-    """Make tables or pictures of a result; omit those whose required sections are missing."""
+def _with_sections(tree: Result, makers: Makers[T]) -> list[tuple[str, Callable[[Result], T]]]:
+    """Select the makers of tables or pictures whose required sections are there."""
     return [
-        make(tree)
-        for sections, make in makers
-        if all(stored_section(tree, name) is not None for name in sections.split())
+        (names, make)
+        for names, make in makers
+        if all(stored_section(tree, name) is not None for name in names.split())
     ]
+
+
+#: Errors of tables and figures that need more than a part of an answer holds.
+_LACKING = (ArithmeticError, AttributeError, EarthspinError, LookupError, TypeError, ValueError)
+
+
+def _made(tree: Result, makers: Iterable[Callable[[Result], T]]) -> list[T]:
+    """Make tables or pictures of a result; of a part of an answer, those for which it suffices."""
+    part, made = laid_out(tree) if isinstance(tree, xr.Dataset) else tree, list[T]()
+    if is_whole(dataset_of(tree)):
+        return [make(part) for make in makers]
+    for make in makers:
+        with suppress(*_LACKING, UserWarning, RuntimeWarning), warnings.catch_warnings():
+            warnings.simplefilter("error", UserWarning)
+            warnings.simplefilter("error", RuntimeWarning)
+            made.append(make(part))
+    return made
+
+
+def _is_one_instant(tree: Result) -> bool:
+    return "time" in tree.coords and tree.sizes.get("time", 1) < 2
 
 
 def _views(tree: Result) -> Views:
     """Return the definitions of tables, figures and pictures (`Views`) for this type of result."""
-    return ensemble.VIEWS if is_ensemble(tree) else VIEWS.get(tree.attrs["compute"], Views())
+    if without_lost_units(data := dataset_of(tree)) is not data:
+        return Views()  # whose texts name units
+    own = VIEWS.get(tree.attrs.get("compute", ""), Views())
+    return ensemble.VIEWS if is_ensemble(tree) else own
 
 
 @progress("figures")
@@ -116,30 +159,21 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
     Parameters
     ----------
     answer : Dataset
-        The sections that its figures need are run for it.
-
-    Raises
-    ------
-    SceneError
-        If the answer has no scene, as a section of it.
+        The sections that its figures need are run for it, if it is the answer to its scene.
     """
-    if "scene" not in answer.attrs:
-        problem = "a section or an edited dataset has no scene; plot the whole answer or its tree"
-        raise SceneError("plot", answer.attrs.get("title", "a dataset"), problem)
-    available = plan(answer, "all").sections
-    needed = {name for figure in _views(answer).figures for name in (figure.section, *figure.uses)}
-    nodes = {"/": answer}
-    if names := [name for name in available if name in needed]:
-        sections = run_tree(answer, names)
-        for name in names:  # with the labels of the answer, which may be a slice
-            node = sections.earthspin.section(name)
-            shared = {dim: answer[dim] for dim in node.indexes if dim in answer.indexes}
-            nodes[name] = node.sel(shared)
+    nodes = {"/": ascending(laid_out(answer))}
+    needed = {name for f in _views(answer).figures for name in (f.section, *f.uses)}
+    with suppress(EarthspinError):  # a part of an answer, a function of the caller, a short record
+        names = [name for name in plan(answer, "all").sections if name in needed]
+        sections = run_tree(answer, names) if names else None
+        nodes |= {name: sections.earthspin.section(name) for name in names}
     return [drawing.figure for drawing in drawings_for(xr.DataTree.from_dict(nodes))]
 
 
 def plot(answer: Answer) -> list[Figure]:
     """Draw the standard figures of a result.
+
+    Of a part of an answer, such as a mean, what can be drawn is drawn.
 
     Parameters
     ----------
@@ -153,7 +187,7 @@ def plot(answer: Answer) -> list[Figure]:
     Raises
     ------
     SceneError
-        If this is a selection of an answer that cannot be drawn, or the answer has no figure.
+        If no number varies along a dimension.
 
     Examples
     --------
@@ -162,20 +196,13 @@ def plot(answer: Answer) -> list[Figure]:
     >>> year.earthspin.plot()[0].savefig("torque.png")
     """
     data = answer.dataset
-    if "scene" not in data.attrs and {"time", "chandler_amplitude"} <= set(data.variables):
+    if {"time", "chandler_amplitude"} <= {*data.variables}:
         with style():  # a result of `fit_chandler`
             return [observed_pole.plot_amplitude_and_phase(data)]
-    question = answer.scene
-    try:
-        figures = figures_of(data)
-    except (AttributeError, KeyError, ValueError):
-        selection = f"a part of an answer to '{question.word}', or a difference"
-        remedy = "plot the full result, which earthspin.run(ds) computes again"
-        raise SceneError("plot", selection, remedy) from None
+    figures = figures_of(data) or [drawing.figure for drawing in any_drawing(ascending(data))]
     if not figures:
-        needed = {figure.section.replace("_", "-") for figure in _views(data).figures}
-        reasons = (why for title, why in plan(data, "all").left_out.items() if title in needed)
-        raise SceneError("plot", question.word, f"no figure: {next(reasons, 'none is defined')}")
+        problem = "these are single numbers; print(ds.earthspin.to_frame()) shows them"
+        raise SceneError("plot", data.attrs.get("title", "data"), problem)
     return figures
 
 
@@ -200,7 +227,7 @@ def scene_page(tree: Result) -> str:
     str
         HTML, self-contained.
     """
-    return page_of(tree, title=answer_of(tree).attrs["title"])
+    return page_of(tree, title=answer_of(tree).attrs.get("title", "Data"))
 
 
 def page_of(
@@ -232,7 +259,7 @@ def page_of(
 
     return page(
         title,
-        tables.numbered(table for tree in trees for table in tables_for(tree)),
+        tables.with_own_titles(table for tree in trees for table in tables_for(tree)),
         [d for tree in trees for d in drawings_for(tree)] if drawings is None else drawings,
         [solid for tree in trees for solid in solids_for(tree)],
         lead=_lead(trees[0]) if lead is None else lead,
@@ -245,8 +272,8 @@ def page_of(
 
 def _lead(tree: Result) -> str:
     """Sentences at the head of a result: its main numbers, or the changes of the bodies."""
-    lead_of = _views(tree).lead
-    return lead_of(tree) if lead_of else " ".join(changes_of(answer_of(tree)))
+    leads = _made(tree, filter(None, [_views(tree).lead]))
+    return leads[0] if leads else " ".join(changes_of(answer_of(tree)))
 
 
 def run_time_tables(*trees: Result) -> list[TextTable]:
@@ -286,10 +313,10 @@ def _pages_of(tree: Result) -> str:
 def _footer(answer: xr.Dataset) -> str:
     """Sentence that gives the program version, kernel and sources of a result."""
     attrs = answer.attrs
-    words = f"{attrs['source']}."
+    words = f"{attrs.get('source', '')}."
     if "ephemeris" in attrs:
         words += f" Kernel {attrs['ephemeris']}, SHA-256 {attrs['ephemeris_sha256']}."
-    if attrs["references"]:
+    if attrs.get("references"):
         words += f" Sources of the numbers: {attrs['references']}."
     return words
 

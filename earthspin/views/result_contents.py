@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Iterator, Mapping
+from functools import partial
+from itertools import islice, product
+from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from earthspin.bodies import in_a_sentence
-from earthspin.engine.accessor import Answer
+from earthspin.engine.accessor import Answer, is_ensemble
+from earthspin.engine.origin import is_whole, without_lost_units
 from earthspin.engine.question import Question
+from earthspin.engine.variables import from_si
 from earthspin.errors import listed
-from earthspin.scenes import QUESTIONS, run_tree
+from earthspin.scenes import QUESTIONS, load_scene, run_tree
 
 #: A plain answer, or one with sections beside it.
 Result = xr.Dataset | xr.DataTree
@@ -28,7 +34,7 @@ def answer_of(result: Result) -> xr.Dataset:
 
 def question_of(result: Result) -> type[Question] | None:
     """Return the `Question` class (type of computation) of a result; None for an unknown type."""
-    return QUESTIONS.get(result.attrs["compute"])
+    return QUESTIONS.get(result.attrs.get("compute", ""))
 
 
 def stored_section(result: Result, name: str) -> xr.Dataset | None:
@@ -84,6 +90,56 @@ def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
     ]
 
 
+#: Number of bodies or initial states of which figures are drawn.
+MOST_CASES = 6
+
+
+def cases_of(result: Result) -> dict[str, Result]:
+    """The first bodies or initial states of a result, each with its labels as text."""
+    data, cases = dataset_of(result), {}
+    dims = [] if is_ensemble(data) else [*_case_dims(data, result.attrs)]
+    if not dims:
+        return {"": result}
+    for place in islice(product(*(range(data.sizes[dim]) for dim in dims)), MOST_CASES):
+        at: Any = dict(zip(dims, place, strict=True))
+        words = ", ".join(f"{dim} {data[dim].values[number]}" for dim, number in at.items())
+        over = xr.Dataset.pipe if isinstance(result, xr.Dataset) else xr.DataTree.map_over_datasets
+        cases[words] = over(result, partial(xr.Dataset.isel, indexers=at, missing_dims="ignore"))
+    return cases
+
+
+def resampled(result: Result, points: int) -> Result:
+    """Compute a motion in closed form at more times, from its first to its last one."""
+    data = dataset_of(result)
+    if not is_whole(data) or data.sizes["time"] >= points:
+        return result
+    times = np.linspace(*data.time.values[[0, -1]], points)
+    names = [name for name in getattr(result, "children", ()) if name != "plan"]
+    return run_tree(load_scene(data).replace(times=times, duration=None, points=None), names)
+
+
+def laid_out(data: xr.Dataset) -> xr.Dataset:
+    """Return a part of an answer with the dimensions of its question, in their order."""
+    question, data = question_of(data), without_lost_units(data)
+    declared = {n: v.dims for n, v in question.graph.variables.items()} if question else {}
+    declared = {name: dims for name, dims in declared.items() if name in data.data_vars}
+    single = {
+        d for dims in declared.values() for d in dims if d in data.coords and not data[d].ndim
+    }
+    labels = {dim: ((dim,), data[dim].values[None], data[dim].attrs) for dim in single}
+    arrays = {}
+    for name, dims in declared.items():
+        array = data[name].variable
+        own = [dim for dim in dims if dim in array.dims or dim in single]
+        arrays[name] = array.set_dims([*own, *(dim for dim in array.dims if dim not in dims)])
+    return data.drop_vars(single).assign(arrays).assign_coords(labels)
+
+
+def ascending(data: xr.Dataset) -> xr.Dataset:
+    """Sort a part of an answer by its numbers and dates."""
+    return data.sortby([dim for dim in data.indexes if data[dim].dtype.kind in "Mfi"])
+
+
 def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
     """Select the first body or initial state from a Dataset with many of them.
 
@@ -93,10 +149,13 @@ def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
     if question is None:
         return data
     declared = question.graph.variables
-    known = {"effect", "part", *question.graph.labels}
-    first = _in_order(data.isel({dim: 0 for dim in data.dims if dim not in known}), question)
+    first = _in_order(data.isel(dict.fromkeys(_case_dims(data, attrs), 0)), question)
     for name in first.variables.keys() & declared.keys():
         first[name] = first[name].transpose(*declared[str(name)].dims, ..., missing_dims="ignore")
+        unit = declared[str(name)].shown
+        if unit and first[name].attrs.get("units") == declared[str(name)].units:
+            scaled = first[name] * (from_si(unit) / from_si(declared[str(name)].units))
+            first[name] = scaled.assign_attrs(first[name].attrs | {"units": unit})
         first[name].attrs |= {"short": declared[str(name)].short}
     return first
 
@@ -114,3 +173,10 @@ def _in_order(data: xr.Dataset, question: type[Question]) -> xr.Dataset:
             if dim in data.dims and sorted(data[dim].values.tolist()) == sorted(order)
         }
     )
+
+
+def _case_dims(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> Iterator[Hashable]:
+    """Yield the dimensions that no part of the question declares."""
+    question = QUESTIONS.get(attrs.get("compute", ""))
+    known = {"effect", "part", *question.graph.labels} if question else {*data.dims}
+    return (dim for dim in data.dims if dim not in known)

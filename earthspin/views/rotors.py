@@ -14,6 +14,13 @@ from earthspin.views.drawing import BLUE, GREEN, RED, Axes, Figure, PageFigure, 
 from earthspin.views.result_contents import Result, answer_of, section
 from earthspin.views.solids import BLACK, GREY, Solid
 
+#: Times at which curves in closed form are drawn: the steps of some dozen turns are then small.
+POINTS = 4001
+#: Change of the inclination below which a top neither nutates nor falls, deg.
+STILL = 1e-6
+#: Spread of the components of a spin, relative to its size, below which their changes are drawn.
+STEADY = 0.02
+
 
 def _caption_of_herpolhode(tree: Result) -> str:
     poinsot = section(tree, "poinsot")
@@ -72,9 +79,15 @@ ROTOR_FIGURES = [
         "Angular velocity in the body",
         "Components of the angular velocity along the principal axes.",
         plot_components,
+        points=POINTS,
     ),
     PageFigure(
-        "Herpolhode", _caption_of_herpolhode, plot_herpolhode, section="poinsot", square=True
+        "Herpolhode",
+        _caption_of_herpolhode,
+        plot_herpolhode,
+        section="poinsot",
+        square=True,
+        points=POINTS,
     ),
 ]
 
@@ -215,12 +228,20 @@ ROTOR_SOLIDS = [
 # --- heavy tops ----------------------------------------------------------------------------------
 
 
-def _plot_potential_and_nutation(tree: Result) -> Figure:
-    answer, figure = answer_of(tree), drawing.empty(8, 3.4)
+def _plot_potential_and_nutation(tree: Result, figure: Figure | None = None) -> Figure:
+    answer, figure = answer_of(tree), figure or drawing.empty(8, 3.4)
     left, right = figure.subplots(1, 2)
     plot_effective_potential(tree, ax=left)
-    right.plot(answer.time, np.degrees(answer.theta), color=BLUE, lw=1.2)
-    right.set(xlabel="time (s)", ylabel="inclination (deg)")
+    inclination = np.degrees(answer.theta.values)
+    if np.ptp(inclination) > STILL:
+        right.plot(answer.time, inclination, color=BLUE, lw=1.2)
+        right.set(xlabel="time (s)", ylabel="inclination (deg)")
+    else:
+        line = rotate(answer.attitude.values, np.array([1.0, 0.0, 0.0]))
+        for name, values, colour in zip("xy", line.T, (BLUE, RED), strict=False):
+            right.plot(answer.time, values, color=colour, lw=1.2, label=name)
+        right.set(xlabel="time (s)", ylabel="direction of a line in the body (1)")
+        drawing.legend_above(right)
     return figure
 
 
@@ -253,10 +274,12 @@ TOP_FIGURES = [
         "Effective potential and nutation",
         "Left: the effective potential as a function of the inclination, and the energy of the top "
         "(dashed); the inclination varies where the energy lies above the potential. Right: the "
-        "inclination in time.",
+        "inclination in time or, if it does not change, the horizontal components of a line across "
+        "the axis that turns with the top.",
         _plot_potential_and_nutation,
         section="potential",
         uses=["turning"],
+        points=POINTS,
     )
 ]
 
@@ -318,7 +341,12 @@ def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax, 8, 3.4)
     answer = answer_of(result)
-    drawing.lines(ax, _days(answer), np.degrees(answer.omega) * DAY, lw=1.1)
+    spin, mean = np.degrees(answer.omega) * DAY, np.degrees(answer.omega.mean("time")) * DAY
+    size = float(np.sqrt((mean**2).sum()))
+    if float(abs(spin - mean).max()) < STEADY * size:
+        drawing.lines(ax, _days(answer), 1e6 * (spin - mean) / size, lw=1.1)
+        return _label(ax, "angular velocity minus its\nmean (1e-6 of its length)")
+    drawing.lines(ax, _days(answer), spin, lw=1.1)
     return _label(ax, "angular velocity (deg/d)")
 
 
@@ -367,7 +395,8 @@ def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
 ROTATION_FIGURES = [
     PageFigure(
         "Spin in the body",
-        "Components of the angular velocity along the principal axes, C last.",
+        "Components of the angular velocity along the principal axes, C last; of a steady spin "
+        "their differences from the mean.",
         plot_spin,
     ),
     PageFigure(

@@ -11,6 +11,7 @@ from typing import Any, Literal, SupportsFloat
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from earthspin.engine.variables import error_of, from_si, texts_as_columns
 from earthspin.views.result_contents import Result, answer_of, section
@@ -232,14 +233,16 @@ MOST_ROWS, SAMPLE = 24, 12
 MOST_COLUMNS = 8
 #: Characters of a row; columns that do not fit follow in a further table.
 WIDTH = 98
+#: Digits of numbers without an error.
+DIGITS = 6
 #: Units of errors that also hold for the components of unit vectors, in radians.
 ANGLES = "deg", "arcsec", "mas", "uas"
 #: Attributes of a variable that stand below its first table.
-NOTED = "long_name", "comment", "frame"
+NOTED = "long_name", "comment", "frame", "left_out"
 
 
 @dataclass(frozen=True, eq=False)
-class _DataColumn:
+class DataColumn:
     """Values of one table column, with 95 % half-widths if known.
 
     Attributes
@@ -251,12 +254,21 @@ class _DataColumn:
         Along the dimension of the rows, or a single number.
     errors : DataArray or None
         Half-widths in the unit of the values.
+    half : float
+        Distance to the nearer end of an interval that is not symmetric; 0 if there is none.
     """
 
     name: str
     head: str
     values: xr.DataArray
     errors: xr.DataArray | None = None
+    half: float = 0.0
+
+    @property
+    def numbers(self) -> NDArray[Any]:
+        """The values as floats; NaN for text and dates."""
+        known = self.values.dtype.kind in "fiu"
+        return self.values.values.astype(float) if known else np.full(self.values.shape, np.nan)
 
     def cells(self, rows: Any = ()) -> list[str]:
         """Text of the values in the given rows."""
@@ -264,9 +276,11 @@ class _DataColumn:
         if values.dtype.kind == "M":
             whole_days = (values == values.astype("M8[D]")).all()
             return [date(value, "D" if whole_days else "s") for value in values]
+        if self.half > 0:
+            return [_with_decimals(values.item(), 1 - math.floor(math.log10(self.half)))]
         if self.errors is None:
-            digits = 3 if re.search("correlation|share", self.name) else 7
-            return [_text(value, digits) for value in values.tolist()]
+            digits = 3 if re.search("correlation|share", self.name) else DIGITS
+            return _aligned(values, digits)
         pairs = zip(values.tolist(), np.atleast_1d(self.errors.values[rows]).tolist(), strict=True)
         return [with_error(v, e) if np.isfinite(v) else _text(v) for v, e in pairs]
 
@@ -285,7 +299,7 @@ def tables(tree: Result, without: Iterable[str] = ()) -> list[TextTable]:
         Sections that are not shown; the answer itself is the empty text.
     """
     answer = answer_of(tree)
-    nodes = {} if "" in without else {str(answer.attrs["title"]): answer}
+    nodes = {} if "" in without else {str(answer.attrs.get("title", "Data")): answer}
     names = [] if isinstance(tree, xr.Dataset) else [*tree.children]
     for name in (name for name in names if name not in {"plan", *without}):
         data = section(tree, name)
@@ -300,14 +314,14 @@ def tables_of(data: xr.Dataset, title: str) -> Iterator[TextTable]:
 
     The first table that shows a variable says what it means.
     """
-    columns: dict[str, list[_DataColumn]] = {}
-    wide: list[_DataColumn] = []
-    for name in _names(data):
-        if parts := [*_columns(data, name)]:
+    columns: dict[str, list[DataColumn]] = {}
+    wide: list[DataColumn] = []
+    for name in main_variables(data):
+        if parts := [*data_columns(data, name)]:
             for dim, column in parts:
                 columns.setdefault(dim, []).append(column)
         else:
-            wide.append(_DataColumn(name, label(data[name]), data[name]))
+            wide.append(DataColumn(name, label(data[name]), data[name]))
     noted: set[str] = set()
     single = columns.pop("", [])
     if single or wide:
@@ -316,23 +330,24 @@ def tables_of(data: xr.Dataset, title: str) -> Iterator[TextTable]:
         rows += [(c.head, f"{shape} values") for c, shape in zip(wide, shapes, strict=True)]
         note = _notes(data, [*single, *wide], noted)
         yield TextTable(title, ("quantity", "value"), rows, note)
-    for dim, along in columns.items():
-        yield from _tables_along(data, dim, along, title, noted)
+    further = [t for dim, along in columns.items() for t in _tables_along(data, dim, along, noted)]
+    for table in further:
+        is_first = table is further[0] and not (single or wide)
+        yield replace(table, title=title if is_first else f"{title}: {table.title}")
 
 
-def numbered(tables: Iterable[TextTable]) -> list[TextTable]:
-    """Return the tables with different titles: a number is added to a repeated title."""
+def with_own_titles(tables: Iterable[TextTable]) -> list[TextTable]:
+    """Return the tables with different titles, as the links of a page need."""
     unique: dict[str, TextTable] = {}
     for table in tables:
-        title, number = table.title, 1
+        title = table.title
         while title in unique:
-            number += 1
-            title = f"{table.title} ({number})"
+            title += ", continued"
         unique[title] = replace(table, title=title)
     return [*unique.values()]
 
 
-def _names(data: xr.Dataset) -> list[str]:
+def main_variables(data: xr.Dataset) -> list[str]:
     """Names of the variables that tables show: all except half-widths and their contributions."""
     names = [str(name) for name in texts_as_columns(data).data_vars]
     half_widths = {_half_width(data, name) for name in names}
@@ -350,7 +365,16 @@ def _half_width(data: xr.Dataset, name: str) -> str:
     return error if fits else ""
 
 
-def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _DataColumn]]:
+def _distance(data: xr.Dataset, name: str) -> float:
+    """Distance of a number to the nearer end of its interval; 0 if it has no ends."""
+    middle = re.sub("_(low|high)$", "", name)
+    if not {f"{middle}_low", f"{middle}_high"} <= {*data}:
+        return 0.0
+    ends = (data[f"{middle}_{end}"] for end in ("low", "high"))
+    return min(abs(float(end) - float(data[middle])) for end in ends)
+
+
+def data_columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, DataColumn]]:
     """Yield the table columns of one variable, each with the dimension along which the rows are.
 
     The rows are along the longest dimension; each label of the others has a column.
@@ -360,7 +384,7 @@ def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _DataColumn]]:
     if errors is not None and errors.attrs.get("units") in ANGLES:
         errors = errors * (from_si(values.attrs["units"]) / from_si(errors.attrs["units"]))
     if values.ndim == 0:
-        yield "", _DataColumn(name, label(values), values, errors)
+        yield "", DataColumn(name, label(values), values, errors, _distance(data, name))
         return
     rows = str(max(values.dims, key=lambda dim: values.sizes[dim]))
     others = [dim for dim in values.dims if dim != rows]
@@ -372,14 +396,17 @@ def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _DataColumn]]:
             quantity, comma, unit = label(values).rpartition(", ")
             head = " ".join([quantity if comma else unit, *words]) + (f", {unit}" if comma else "")
             half = None if errors is None else errors.isel(at)
-            yield rows, _DataColumn(name, head, values.isel(at), half)
+            yield rows, DataColumn(name, head, values.isel(at), half)
 
 
 def _tables_along(
-    data: xr.Dataset, dim: str, columns: list[_DataColumn], title: str, noted: set[str]
+    data: xr.Dataset, dim: str, columns: list[DataColumn], noted: set[str]
 ) -> Iterator[TextTable]:
-    """Yield tables with a row for each label of a dimension; more than one if columns are many."""
-    labels, count = _DataColumn(dim, label(data[dim]), data[dim]), data.sizes[dim]
+    """Yield tables with a row for each label of a dimension; more than one if columns are many.
+
+    The title of a table names its quantities.
+    """
+    labels, count = DataColumn(dim, label(data[dim]), data[dim]), data.sizes[dim]
     rows, part = np.arange(count), ""
     if count > MOST_ROWS and data[dim].dtype.kind in "UO":
         rows, part = rows[:MOST_ROWS], f"The first {MOST_ROWS} of {count} rows."
@@ -388,8 +415,9 @@ def _tables_along(
         part = f"{SAMPLE} of {count} rows."
     texts = {column: column.cells(rows) for column in (labels, *columns)}
     for group in _side_by_side(texts, labels):
+        names = dict.fromkeys(label(data[c.name].assign_attrs(units="")) for c in group[1:])
         yield TextTable(
-            title,
+            " to ".join(dict.fromkeys([*names][i] for i in (0, -1))),
             tuple(column.head for column in group),
             [*zip(*(texts[column] for column in group), strict=True)],
             "\n".join(filter(None, (part, _notes(data, group, noted)))),
@@ -398,8 +426,8 @@ def _tables_along(
 
 
 def _side_by_side(
-    texts: Mapping[_DataColumn, list[str]], labels: _DataColumn
-) -> Iterator[list[_DataColumn]]:
+    texts: Mapping[DataColumn, list[str]], labels: DataColumn
+) -> Iterator[list[DataColumn]]:
     """Yield groups of columns that fit, with the labels, into the table width; omit empty ones."""
     widths = {column: SPACE + least_width(column.head, cells) for column, cells in texts.items()}
     group, room = [labels], WIDTH - widths[labels]
@@ -415,7 +443,7 @@ def _side_by_side(
         yield group
 
 
-def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], noted: set[str]) -> str:
+def _notes(data: xr.Dataset, columns: Iterable[DataColumn], noted: set[str]) -> str:
     """Note below a table: meaning, frame, sources of variables that no earlier note explains."""
     lines: list[str] = []
     left_out: dict[str, None] = {}
@@ -426,7 +454,7 @@ def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], noted: set[str]) ->
             left_out[data[error].attrs.get("not_modelled", "")] = None
         if name not in noted:
             quantity = label(data[name].assign_attrs(units=""))
-            words = [str(attrs[key]) for key in NOTED if attrs.get(key, quantity) != quantity]
+            words = [str(attrs[k]) for k in NOTED if attrs.get(k, "none") not in ("none", quantity)]
             if source := attrs.get("references"):
                 words.append(f"source: {source}")
             if error not in ("", f"{name}_error") and error not in noted:
@@ -437,7 +465,24 @@ def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], noted: set[str]) ->
     return "\n".join(lines)
 
 
-def _text(value: Any, digits: int = 7) -> str:
+def _aligned(values: Any, digits: int) -> list[str]:
+    """Text of the values of a column, all with as many decimals as the largest needs."""
+    sizes = np.abs(values[np.isfinite(values) & (values != 0)]) if values.dtype.kind == "f" else ()
+    if not len(sizes) or sizes.max() >= LARGE or sizes.min() < sizes.max() / 10.0 ** (digits - 2):
+        return [_text(value, digits) for value in values.tolist()]
+    most = max(0, digits - 1 - math.floor(math.log10(sizes.max())))
+    rounded = np.round(sizes, most)
+    decimals = next(
+        k for k in range(most + 1) if np.allclose(np.round(sizes, k), rounded, 1e-12, 0)
+    )
+    return [_with_decimals(value, decimals) for value in values.tolist()]
+
+
+def _with_decimals(value: float, decimals: int) -> str:
+    return f"{value:z.{max(0, decimals)}f}" if np.isfinite(value) else _text(value)
+
+
+def _text(value: Any, digits: int = DIGITS) -> str:
     """Text of a table cell: number to some digits, text without underscores, or yes and no."""
     if isinstance(value, bool):
         return "yes" if value else "no"

@@ -36,13 +36,14 @@ class Terminal(Console):
         shown = RichTable(box=box.SIMPLE_HEAD)
         columns = [[row[number] for row in table.rows] for number in range(len(table.headers))]
         pairs = list(zip(table.headers, columns, strict=True))
-        natural = sum(SPACE + max(map(len, [header, *cells])) for header, cells in pairs)
+        natural = 1 + sum(SPACE + max(map(len, [header, *cells])) for header, cells in pairs)
         for number, (header, cells) in enumerate(pairs):
             # of a table that is too wide, headers and long text are wrapped, and no numbers
             least = least_width(header, cells) if natural > self.width else None
             flexible = any(len(cell) > SHORT for cell in cells)
             side: Literal["left", "right"] = "left" if number in table.words else "right"
-            shown.add_column(_plain(header), justify=side, width=None if flexible else least)
+            width = None if flexible else least
+            shown.add_column(_plain(header), justify=side, width=width, overflow="fold")
         for row in table.rows:
             shown.add_row(*(_plain(short_exponents(cell)) for cell in row))
         self.print(shown)

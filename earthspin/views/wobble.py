@@ -1,49 +1,13 @@
-"""Table and figure of the free wobble period by Earth model, and figure of Love numbers."""
+"""Figures of the free wobble period by Earth model, and of Love numbers."""
 
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 
-from earthspin.views import drawing, tables
+from earthspin.views import drawing
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
 from earthspin.views.result_contents import Result, answer_of, changes_of, section, stored_section
-from earthspin.views.tables import Column, TextTable, along, table_along
-
-
-def ladder(tree: Result) -> TextTable:
-    """Table of the free wobble period for successive models, from rigid to deformable."""
-    answer, observed = answer_of(tree), stored_section(tree, "observed")
-
-    def quality(row: xr.Dataset) -> str:
-        return f"{float(row.quality_factor):.0f}" if np.isfinite(row.quality_factor) else ""
-
-    notes = [
-        "Each rung is a model that adds one effect to the model before; the factor is the ratio of "
-        "their periods. The factors depend on the order of the rungs."
-    ]
-    if "anelastic" in answer.rung.values:
-        notes.append(
-            "The exponent of anelasticity is a free choice, so the last rung is a check of "
-            "consistency, not a prediction."
-        )
-    if answer.rung.attrs.get("left_out", "none") != "none":
-        notes.append(f"Rungs left out: {answer.rung.attrs['left_out']}.")
-    more = []
-    if observed is not None:
-        more.append(("observed", tables.measured(observed, "observed_period"), "", "", ""))
-        source = observed.observed_period.attrs.get("references", "")
-        notes.append(
-            f"Source of the observed period: {source}. "
-            "The errors include the uncertainty of the inputs, but no neglected effects."
-        )
-    columns = (
-        Column("period_solar", "", "days of 86400 s"),
-        *("period_sidereal:.3f", "factor:.6f"),
-        Column("quality_factor", quality),
-    )
-    title = "Free wobble, rung by rung"
-    return table_along(answer, "rung", title, columns, " ".join(notes), more=more)
+from earthspin.views.tables import along
 
 
 def _caption_of_ladder(tree: Result) -> str:
@@ -151,6 +115,6 @@ LOVE_FIGURES = [
 
 
 VIEWS = {
-    "wobble": Views(LADDER_FIGURES, tables=[("", ladder)]),
+    "wobble": Views(LADDER_FIGURES),
     "love-numbers": Views(LOVE_FIGURES),
 }
