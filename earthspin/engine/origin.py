@@ -24,7 +24,7 @@ _LARGER = 10.0
 
 
 def with_labels(answer: Any, lengths: Mapping[str, int] | None = None) -> Any:
-    """Add the labels and ranges of an answer to its scene, in place.
+    """Add the labels and ranges of an answer to its scene, if it has one, in place.
 
     Parameters
     ----------
@@ -33,7 +33,8 @@ def with_labels(answer: Any, lengths: Mapping[str, int] | None = None) -> Any:
         Sizes of dimensions, if the answer is only a first block, whose numbers are not all.
     """
     made = _labels(answer) | ({n: [k] for n, k in lengths.items()} if lengths else _ranges(answer))
-    answer.attrs[SCENE] = answer.attrs[SCENE].partition(_MADE)[0] + _MADE + json.dumps(made) + "\n"
+    if scene := answer.attrs.get(SCENE):
+        answer.attrs[SCENE] = f"{scene.partition(_MADE)[0]}{_MADE}{json.dumps(made)}\n"
     return answer
 
 
@@ -110,9 +111,15 @@ def _labels(answer: Any) -> dict[str, list[Any]]:
 
 def _ranges(answer: Any) -> dict[str, list[float]]:
     """Smallest and largest finite value of each variable of numbers in memory."""
-    floats = {n: a for n, a in answer.data_vars.items() if a.dtype.kind == "f"}
-    finite = {n: a.values[np.isfinite(a)] for n, a in floats.items() if a.variable._in_memory}
-    return {str(n): [float(v.min()), float(v.max())] for n, v in finite.items() if v.size}
+    ranges, labels = {}, {*answer.coords}
+    for name, variable in answer.variables.items():
+        if name not in labels and variable.dtype.kind == "f" and variable._in_memory:
+            values = variable.values
+            if values.size and not np.isfinite([values.min(), values.max()]).all():
+                values = values[np.isfinite(values)]
+            if values.size:
+                ranges[str(name)] = [float(values.min()), float(values.max())]
+    return ranges
 
 
 def plain_bytes(values: np.ndarray[Any, Any]) -> tuple[str, bytes]:

@@ -68,7 +68,7 @@ def test_joined_answers_are_not_the_answer_to_the_first(
     assert earthspin.run(tmp_path / "both.zarr").sizes["time"] == 361
     spring.to_zarr(tmp_path / "both.zarr", append_dim="time")
     assert "scene" not in earthspin.open(tmp_path / "both.zarr").attrs
-    with pytest.raises(SceneError, match="361 labels along 'time', the data have 725"):
+    with pytest.raises(SceneError, match="364 labels along 'time', the data have 725"):
         earthspin.run(xr.open_zarr(tmp_path / "both.zarr"))
 
 
