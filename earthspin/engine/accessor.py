@@ -23,7 +23,7 @@ from earthspin.engine.question import ALL, names_in
 from earthspin.engine.variables import from_si, texts_as_columns, with_units_of_answers
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.numerics import sampling
-from earthspin.units import real_numbers, unit_factor
+from earthspin.units import as_written, quantity, real_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -36,8 +36,6 @@ if TYPE_CHECKING:
 #: Suffix of the names of errors.
 _ERROR = "_error"
 _SHARE_ERROR = "95 % half-width, from the number of members, of the share of the variance"
-#: Relative rounding of the ratio of two units.
-_ROUNDING = 1e-13
 _NO_VECTOR = "the answer has no vector in the GCRS"
 
 
@@ -434,10 +432,9 @@ def _without_inherited(node: xr.DataTree) -> xr.Dataset:
 
 
 def _converted(numbers: Any, own: str, unit: str, name: str) -> Any:
-    """Convert numbers to another unit, by a whole factor if there is one, which adds no digits."""
-    factor = unit_factor(unit, own, Where(f"units of {name}"), own)
-    whole = max(1, round(1 / factor))
-    return numbers * whole if abs(factor * whole - 1) < _ROUNDING else numbers / factor
+    """Convert numbers to another unit."""
+    factor = quantity(f"1 {unit}", own, Where(f"units of {name}"), f"1 {own}")
+    return as_written(numbers, 1 / factor)
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:
