@@ -209,21 +209,23 @@ class Answer:
             frame = frame.reset_index()[names]
         else:  # an answer without dimensions is one row
             frame = spread.expand_dims("row").to_dataframe().reset_index(drop=True)[names]
-        own = {name: str(spread[name].attrs.get("units", "1")) for name in names}
+        unit_of = {name: str(spread[name].attrs.get("units", "1")) for name in names}
         for name in names_in(wrap, "wrap"):
-            if own.get(name) not in ("deg", "rad", "arcsec", "mas"):
+            if unit_of.get(name) not in ("deg", "rad", "arcsec", "mas"):
                 raise SceneError("wrap", name, "it is no angle with a unit")
-            frame[name] %= 2 * np.pi * from_si(own[name])
+            frame[name] %= 2 * np.pi * from_si(unit_of[name])
         for name, unit in (units or {}).items():
             changed = [c for c in names if c == name or owners.get(c) == name]
-            if not changed or own[changed[0]] == "1":
-                known = ", ".join(c for c in own if own[c] != "1")
+            if not changed or unit_of[changed[0]] == "1":
+                known = ", ".join(c for c in unit_of if unit_of[c] != "1")
                 raise SceneError("units", name, f"columns with a unit: {known}")
             changed += [c for c in names if c.startswith(name + _ERROR)]
-            for column in (c for c in changed if own[c] == own[changed[0]]):
-                frame[column] = _converted(frame[column], own[column], unit, name)
-            own |= dict.fromkeys((c for c in changed if own[c] == own[changed[0]]), unit)
-        frame.attrs["units"] = own
+            for column in (c for c in changed if unit_of[c] == unit_of[changed[0]]):
+                frame[column] = _converted(frame[column], unit_of[column], unit, name)
+            unit_of |= dict.fromkeys(
+                (c for c in changed if unit_of[c] == unit_of[changed[0]]), unit
+            )
+        frame.attrs["units"] = unit_of
         return frame
 
     def to_csv(

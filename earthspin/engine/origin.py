@@ -10,12 +10,14 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from earthspin._lazy import xr
 from earthspin.engine.question import SCENE
+
+T = TypeVar("T", "xr.Dataset", "xr.DataTree")
 
 #: Beginning of the last line of a scene.
 _MADE = "\n# made: "
@@ -23,7 +25,7 @@ _MADE = "\n# made: "
 _LARGER = 10.0
 
 
-def with_labels(answer: Any, lengths: Mapping[str, int] | None = None) -> Any:
+def with_labels(answer: T, lengths: Mapping[str, int] | None = None) -> T:
     """Add the labels and ranges of an answer to its scene, if it has one, in place.
 
     Parameters
