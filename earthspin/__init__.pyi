@@ -228,11 +228,26 @@ def insolation(
     j2_rate: Value | None = ...,
     obliquity_shift: Value | None = ...,
     longitude_shift: Value | None = ...,
+    mean: Literal[
+        "day",
+        "interval",
+        "window",
+        "year",
+        "caloric",
+        "above",
+        "extremes",
+        "all-extremes",
+        "seasons",
+    ]
+    | None = ...,
     latitude: Values | None = ...,
     longitude: Values | None = ...,
+    mean_longitude: Values | None = ...,
     day: Values | None = ...,
     window: Value | None = ...,
+    threshold: Value | None = ...,
     solar_constant: Value | None = ...,
+    solar_constant_error: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
 def rotation(

@@ -463,6 +463,8 @@ def checked(
     def call(*args: _P.args, **keywords: _P.kwargs) -> _T:
         try:
             return function(*args, **keywords)
+        except ArgumentError:
+            raise
         except TypeError:
             try:
                 signature.bind(*args, **keywords)

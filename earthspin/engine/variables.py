@@ -37,6 +37,7 @@ FROM_SI: dict[str, float] = {
     "uas": 1e6 / ARCSEC,
     "d": 1 / DAY,
     "yr": 1 / JULIAN_YEAR,
+    "GJ m-2": 1e-9,
     **dict.fromkeys(_SI, 1.0),
 }
 
@@ -113,6 +114,8 @@ def with_units_of_answers(data: xr.Dataset) -> xr.Dataset:
 
 # --- declarations ---------------------------------------------------------------------------------
 
+#: Attribute of a variable that says where its values are NaN.
+MISSING = "missing_where"
 #: Suffixes of the names of a field's variables, with patterns of their long names, in order.
 _ERROR = {"": "{}", "_error": "95 % half-width of the {}"}
 _SHARES = {
@@ -347,10 +350,12 @@ class Variables:
             data = laid.values if factor == 1 else np.asarray(laid.values * factor)
             attributes = declared.attributes(name, values)
             if data.dtype.kind == "f" and np.isnan(data).any():
-                if not (self._no_error and "_error" in name):
+                may_lack = self.schema[name.partition("_error")[0]].attrs.get(MISSING)
+                if not (may_lack or (self._no_error and "_error" in name)):
                     problem = f"{declared.long_name} is undefined; check the numbers of the body"
                     raise UndefinedError(problem)
-                attributes["no_error"] = self._no_error
+                if self._no_error and "_error" in name:
+                    attributes["no_error"] = self._no_error
             arrays[name] = variable_of(laid.dims, data, attributes)
         result = xr.Dataset(arrays, coords=coords)
         for name, extra in self._attributes.items():

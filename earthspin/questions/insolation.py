@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import re
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
@@ -13,15 +15,15 @@ from earthspin._lazy import xr
 from earthspin.bodies import BODIES, EARTH, SUN, Body
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
 from earthspin.engine import Neglected, key, part, public_call
-from earthspin.engine.variables import Variables, labels, measured, si
-from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.engine.question import keys_of
+from earthspin.engine.variables import Variables, labels, measured, number
+from earthspin.errors import SceneError, UndefinedError, Where, checked, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
 from earthspin.questions import long_term
-from earthspin.secular.insolation import Season, with_error
-from earthspin.units import LONGEST_IN_MEMORY, Number, Numbers, Plain, quantity
+from earthspin.questions.season_averages import ELEMENTS, OF_BANDS, READS, SEASONS, Average
+from earthspin.units import LONGEST_IN_MEMORY, Number, Numbers, Plain, Word, quantity
 
-_NEEDED = ("obliquity", "eccentricity", "longitude_of_perihelion")
 _TURN = 2 * np.pi
 _CALL = "daily_insolation"
 #: March equinox, in days of a calendar that counts 1 January as day 1, and length of its year, d:
@@ -38,7 +40,7 @@ _HEMISPHERE = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*(?:°|deg)?\s*([NS])\s*")
 def _signed(value: Any) -> Any:
     """Replace the hemisphere letter of latitudes by a sign: "23.5S" becomes "-23.5 deg"."""
     if isinstance(value, (list, tuple)):
-        return [_signed(text) if isinstance(text, str) else text for text in value]
+        return [_signed(element) for element in value]
     match = isinstance(value, str) and _HEMISPHERE.fullmatch(value)
     return f"{'-' if match[2] == 'S' else ''}{match[1]} deg" if match else value
 
@@ -67,8 +69,12 @@ class AngleList(Numbers):
     limit: float = _TURN
 
     def read(self, value: object, where: Where) -> FloatArray:
-        """Convert an angle or a list of angles to rad."""
+        """Convert an angle, a list of angles, or a list of pairs of angles to rad."""
         angle = _in_radians(value, where, self.limit)
+        if np.ndim(angle) == 2:
+            return Numbers(self.unit, self.example, (None, 2)).read(
+                angle, replace(where, typed=False)
+            )
         return super().read(angle, replace(where, typed=False))
 
     def write(self, value: FloatArray) -> Plain:
@@ -79,12 +85,21 @@ class AngleList(Numbers):
         return f"{degrees!r} deg" if math.radians(degrees) == value else f"{float(value)!r} rad"
 
 
-def _labelled(angle: Any, name: str, label: Any = None, **attrs: str) -> xr.DataArray:
-    """Make a DataArray of angles (rad) along `name`, labelled by default with values in degrees."""
-    dims = (name,) if np.ndim(angle) else ()
-    # rounded, because radians are not exact
-    label = np.degrees(angle).round(12) if label is None else label
-    return xr.DataArray(angle, {name: (dims, label, attrs)}, dims)
+def _labelled(angle: Any, name: str, label: Any = None, **attrs: str) -> tuple[xr.DataArray, ...]:
+    """Make a DataArray of angles (rad) along `name`, or two of the ends of pairs of angles.
+
+    The default labels are values in degrees, or texts of pairs. A DataArray has its own labels.
+    """
+    if isinstance(angle, xr.DataArray):
+        return (angle,)
+    degrees = np.degrees(angle).round(12)  # because radians are not exact
+    if label is None and name in ("band", "interval"):
+        label = np.array([f"{first:g} to {last:g}" for first, last in degrees.reshape(-1, 2)])
+        label = label.reshape(degrees.shape[:-1])
+    label = degrees if label is None else label
+    dims = (name,) if np.ndim(label) else ()
+    ends = np.reshape(np.transpose(angle), (-1, *np.shape(label)))
+    return tuple(xr.DataArray(end, {name: (dims, label, attrs)}, dims) for end in ends)
 
 
 # --- the question --------------------------------------------------------------------------------
@@ -96,19 +111,26 @@ class Insolation(
     call="insolation",
     positional=("start", "stop", "step"),
 ):
-    """Insolation at the top of the atmosphere over millennia, daily or longer means (Berger 1978).
+    """Insolation at the top of the atmosphere over millennia: means, half-years and extremes.
 
     Obliquity, eccentricity and perihelion are those of `long_term`, with all its inputs. Longitudes
     of the Sun are seen from the body along the orbit from the moving equinox: 0 is the March
     equinox, 90 degrees the June solstice. A true longitude is a place on the orbit. A day is one of
     a calendar in which the March equinox is always day 80, 21 March, of 365.2422 days: a mean
     longitude of (day - 80)/365.2422 turns (Huybers & Eisenman 2006). Other seasons then begin on
-    days that change with the perihelion. A `window` is counted in the same year of 365.2422 days,
-    because longitudes are counted from the moving equinox; for other bodies in the sidereal year.
+    days that change with the perihelion. All lengths of time are counted in the same year of
+    365.2422 days, because longitudes are counted from the moving equinox; for other bodies in the
+    sidereal year.
 
-    The answer is also along `latitude`, and along `longitude` or `day`, if these are lists. The
-    label `epoch` is in Julian years from J2000.0 TDB. The error follows from those of obliquity,
-    eccentricity and perihelion, which are treated as independent.
+    `mean` is "day" (default), "interval" (between two longitudes), "window" (of time), "year",
+    "caloric" (half-years of Milankovitch: every day of the summer gets more than every day of the
+    winter), "above" (time above `threshold`; Huybers 2006), "extremes", "all-extremes" or
+    "seasons". Latitudes may be bands, lists of pairs like [["60N", "90N"]], for the first four.
+
+    The answer is also along `latitude` or `band`, and along `longitude`, `interval`,
+    `mean_longitude` or `day`, if these are lists. The label `epoch` is in Julian years from J2000.0
+    TDB. The error follows from those of obliquity, eccentricity, perihelion and solar constant,
+    which are treated as independent.
 
     Raises
     ------
@@ -125,29 +147,52 @@ class Insolation(
 
     headline = "insolation"
 
-    exclusive = (*long_term.LongTerm.exclusive, (("longitude",), ("day",)))  # type: ignore[assignment]
+    exclusive = (  # type: ignore[assignment]
+        *long_term.LongTerm.exclusive,
+        (("longitude",), ("mean_longitude",), ("day",)),
+    )
 
+    mean: Annotated[str, Word(tuple(READS))] | None = key(
+        None, doc='what is averaged; if not given, "window" with a window, else "day"'
+    )
     latitude: Annotated[FloatArray, AngleList("rad", "65 deg", (None,), True, np.pi / 2)] = key(
-        "65 deg", doc='latitude, or a list; "65N" and "23.5S" are read, plain numbers are radians'
+        "65 deg",
+        doc='latitude, or a list of latitudes or of pairs (bands); "65N" and "23.5S" are read, '
+        "plain numbers are radians",
     )
     longitude: Annotated[FloatArray, AngleList("rad", "90 deg", (None,), True)] = key(
-        "90 deg", doc="true longitude of the Sun, or a list; 90 degrees is the June solstice"
+        "90 deg",
+        doc="true longitude of the Sun, or a list; 90 degrees is the June solstice; the first and "
+        "last longitude of an interval, or a list of such pairs",
+    )
+    mean_longitude: Annotated[FloatArray, AngleList("rad", "90 deg", (None,), True)] | None = key(
+        None,
+        doc="mean longitude, in place of longitude: time from the March equinox, 360 degrees "
+        "a year",
     )
     day: Annotated[FloatArray, Numbers("", "172", (None,), True)] | None = key(
         None, doc="day of the year, or a list, in place of longitude; 80 is the March equinox"
     )
     window: Annotated[float, Number("s", "30 d", above=0.0)] | None = key(
-        None, doc="length of the average, centred on the longitude or day; one day if not given"
+        None, doc="length of the average, centred on the longitude or day"
+    )
+    threshold: Annotated[float, Number("W/m2", "275 W/m2", above=0.0)] | None = key(
+        None, doc="level of the daily insolation above which the summer is summed"
     )
     solar_constant: Annotated[float, Number("W/m2", "1361 W/m2", above=0.0)] | None = key(
         None,
         doc="solar constant at the mean distance of the body; if not given, 1361 W/m2 at one "
         "astronomical unit (many tables use 1365 or more)",
     )
+    solar_constant_error: Annotated[float, Number("W/m2", "0.5 W/m2", low=0.0)] = key(
+        0.0, doc="95 % half-width of the solar constant"
+    )
 
     def check(self) -> None:
-        """Refuse days outside the Earth's calendar, and a window of more than a year."""
+        """Refuse inputs that the mean does not read, days off the calendar, and long windows."""
         super().check()
+        mean = _mean(self.mean, self.window)
+        check_inputs(mean, {name: getattr(self, name) for name in INPUTS}, self.error)
         is_earth = self.body.known_as == EARTH.known_as
         if self.day is not None and not (is_earth and np.all((self.day >= 0) & (self.day < 367))):
             problem = "give days from 0 to 367 of the Earth's calendar, or a longitude"
@@ -156,55 +201,164 @@ class Insolation(
             raise self.error("window", f"{self.window / DAY:g} d", "give at most a year")
 
 
-class InsolationSeries(Variables, along=("epoch",)):
-    """Insolation, W/m2, at every epoch, latitude, and solar longitude or day of the year."""
+_FEWER = "NaN if there are fewer extremes"
+_SEE = "see longitude_of_largest and longitude_of_smallest"
+_optional = functools.partial(measured, default=None)
+_angle_of = functools.partial(_optional, "deg", missing_where="NaN if it is not unique")
 
-    insolation = measured("W m-2", _SUNLIGHT, references=BERGER)
-    epoch = labels()
-    latitude = labels()
+
+class InsolationSeries(Variables, along=("epoch",)):
+    """Insolation and its means at every epoch, latitude, and solar longitude or day of the year."""
+
+    insolation = _optional("W m-2", _SUNLIGHT, references=BERGER)
+    length = _optional("d", "time that is averaged over")
+    annual_mean = _optional("W m-2", "mean insolation over the year")
+    caloric_summer = _optional("W m-2", "mean over the caloric summer half-year")
+    caloric_winter = _optional("W m-2", "mean over the caloric winter half-year")
+    caloric_summer_energy = _optional("GJ m-2", "energy of the caloric summer half-year")
+    caloric_winter_energy = _optional("GJ m-2", "energy of the caloric winter half-year")
+    caloric_level = _optional("W m-2", "insolation between the caloric half-years")
+    caloric_start = _angle_of("true longitude at the start of the caloric summer")
+    caloric_end = _angle_of("true longitude at the end of the caloric summer")
+    integrated_summer = _optional("GJ m-2", "insolation summed over days above the threshold")
+    days_above = _optional("d", "time above the threshold in a year")
+    excess = _optional("GJ m-2", "insolation beyond the threshold, summed")
+    largest = _optional("W m-2", "largest daily insolation of the year")
+    longitude_of_largest = _angle_of("true longitude of the largest insolation")
+    smallest = _optional("W m-2", "smallest daily insolation of the year")
+    longitude_of_smallest = _angle_of("true longitude of the smallest insolation")
+    count = number("1", "number of extremes in the year", default=None, no_error="a whole number")
+    extreme_insolation = _optional(
+        "W m-2", "extremes of the daily insolation", missing_where=_FEWER
+    )
+    extreme_longitude = number(
+        "deg", "true longitude of each extreme", default=None, no_error=_SEE, missing_where=_FEWER
+    )
+    season_length = _optional("d", "length of the season")
+    epoch = labels(default=None)
+    latitude = labels(default=None)
+    band = labels(default=None)
     longitude = labels(default=None)
+    interval = labels(default=None)
+    mean_longitude = labels(default=None)
     day = labels(default=None)
 
 
+#: Inputs that only some of the means read.
+INPUTS = sorted({name for names in READS.values() for name in names})
+
+
+def _mean(mean: str | None, window: float | None) -> str:
+    """What is averaged: a day by default, or a window if its length is given."""
+    return mean or ("day" if window is None else "window")
+
+
+def check_inputs(
+    mean: str, values: Mapping[str, Any], error: Callable[[str, object, str], SceneError]
+) -> None:
+    """Refuse inputs that a mean does not read, unless they are the defaults, and those it lacks.
+
+    Parameters
+    ----------
+    mean : str
+    values : mapping of str to object
+        Inputs by name; arrays of pairs have two dimensions.
+    error : callable
+        Makes the error from name, value and problem.
+    """
+    keys = keys_of(Insolation)
+    for name, value in values.items():
+        if name not in READS[mean] and not np.array_equal(value, keys[name].default):
+            uses = " or ".join(f"'{other}'" for other, names in READS.items() if name in names)
+            raise error(name, "...", f"mean = '{mean}' does not read it; it is for mean = {uses}")
+        pairs = OF_BANDS if name == "latitude" else ("interval",)
+        if np.ndim(value) == 2 and mean not in pairs:
+            raise error(name, "pairs", f"pairs are for mean = {' or '.join(map(repr, pairs))}")
+        if name in ("window", "threshold") and name in READS[mean] and value is None:
+            raise error(name, None, f"mean = '{mean}' needs it")
+    if mean == "interval" and np.shape(values["longitude"])[-1:] != (2,):
+        problem = "give first and last longitude, like ['0 deg', '180 deg']"
+        raise error("longitude", np.asarray(values["longitude"]).tolist(), problem)
+
+
+def _places(
+    mean: str, latitude: Any, longitude: Any, mean_longitude: Any, day: Any
+) -> tuple[tuple[xr.DataArray, ...], tuple[xr.DataArray, ...]]:
+    """Latitudes or ends of bands, and longitudes of the Sun or ends of intervals, as DataArrays."""
+    if mean != "seasons":
+        name = "band" if np.ndim(latitude) == 2 else "latitude"
+        places = _labelled(latitude, name, units="deg", long_name="latitude")
+    else:
+        starts = np.array([*SEASONS.values()])
+        ends = np.stack([starts, starts + np.pi / 2], axis=-1)
+        return (), _labelled(ends, "season", np.array([*SEASONS]))
+    words = "{} longitude of the Sun from the moving equinox"
+    if mean == "interval":
+        first, last = _labelled(longitude, "interval", units="deg", long_name=words.format("true"))
+        return places, (first, last + _TURN * (last < first))  # over the equinox
+    if "longitude" not in READS[mean]:
+        return places, ()
+    if day is not None:
+        angle = _TURN * (day - MARCH_EQUINOX) / CALENDAR_YEAR
+        words = f"day of the year, of which {MARCH_EQUINOX:g} is the March equinox"
+        return places, _labelled(angle, "day", day, units="d", long_name=words)
+    angles = {"longitude": longitude, "mean_longitude": mean_longitude}
+    name = "longitude" if mean_longitude is None else "mean_longitude"
+    words = words.format("true" if mean_longitude is None else "mean")
+    return places, _labelled(angles[name], name, units="deg", long_name=words)
+
+
+def _answer(choice: Average, series: xr.Dataset, **attributes: Any) -> InsolationSeries:
+    """Means of a solution, with the attributes of `insolation`."""
+    coordinates = [c for array in (*choice.places, *choice.sun) for c in array.coords.values()]
+    single = {
+        c.name: f"{c.item():g}" if c.dtype.kind == "f" else c.item()
+        for c in coordinates
+        if not c.ndim
+    }
+    units = {c.name: c.attrs.get("units", "") for c in coordinates}
+    words = {"day": "a day", "window": f"{(choice.window or 0.0) / DAY:g} d"}
+    places = [f"{name} {value} {units[name]}" for name, value in single.items()]
+    comment = ", ".join([f"mean over {words.get(choice.mean, choice.mean)}", *places])
+    attributes |= {"solar_constant": choice.constant, "comment": comment}
+    values, schema = choice.of(series), InsolationSeries.schema
+    pairs = {n: pair if f"{n}_error" in schema else pair[0] for n, pair in values.items()}
+    no_error = "the solution has no errors"
+    if f"{ELEMENTS[0]}_error" in series:
+        no_error = series[f"{ELEMENTS[0]}_error"].attrs.get("no_error", "")
+    marked = dict.fromkeys(values, attributes)
+    coords = {str(c.name): c.variable for c in coordinates if c.name in InsolationSeries.fields}
+    return InsolationSeries(**pairs, **coords).with_attributes(no_error=no_error, **marked)
+
+
 @part
-def daily_means(
+def averages(
     series: xr.Dataset,
+    mean: str | None,
     latitude: FloatArray,
     longitude: FloatArray,
+    mean_longitude: FloatArray | None,
     day: FloatArray | None,
     window: float | None,
+    threshold: float | None,
     solar_constant: float | None,
+    solar_constant_error: float,
     body: Body,
 ) -> InsolationSeries:
-    """Compute the insolation and its error at every epoch, latitude, and longitude or day."""
-    place = _labelled(latitude, "latitude", units="deg", long_name="latitude")
-    if day is None:
-        words = "true longitude of the Sun from the moving equinox"
-        season, sun = "longitude", _labelled(longitude, "longitude", units="deg", long_name=words)
-    else:
-        mean_longitude = _TURN * (day - MARCH_EQUINOX) / CALENDAR_YEAR
-        words = f"day of the year, of which {MARCH_EQUINOX:g} is the March equinox"
-        season, sun = "day", _labelled(mean_longitude, "day", day, units="d", long_name=words)
-    count = series.epoch.size * place.size * sun.size
+    """Compute the means and their errors at every epoch, latitude, and longitude or day."""
+    average = _mean(mean, window)
+    places, sun = _places(average, latitude, longitude, mean_longitude, day)
+    count = series.epoch.size * math.prod(arrays[0].size for arrays in (places, sun) if arrays)
     if count > LONGEST_IN_MEMORY:
         problem = f"give fewer epochs or places; at most {LONGEST_IN_MEMORY} values fit into memory"
         raise SceneError("insolation", f"{count} values", problem)
     year = body.number("orbital_period")
     constant = _solar_constant(year) if solar_constant is None else solar_constant
-    share = None if window is None else window / _year_of_seasons(body.known_as, year)
-    coords = {"latitude": place.latitude.variable, season: sun[season].variable}
-    single = [f"{name} {c.item():g} {c.attrs['units']}" for name, c in coords.items() if not c.ndim]
-    length = "a day" if window is None else f"{window / DAY:g} d"
-    attributes = {name: series.obliquity.attrs[name] for name in ("orbit", "orbit_of")}
-    attributes["comment"] = ", ".join([f"mean over {length}", *single])
-    return InsolationSeries(
-        insolation=_with_error(series, place, sun, constant, share, day is None),
-        epoch=series.epoch.variable,
-        **coords,
-    ).with_attributes(
-        no_error=series.obliquity_error.attrs.get("no_error", ""),
-        insolation={"solar_constant": constant, **attributes},
-    )
+    year = _year_of_seasons(body.known_as, year)
+    is_true, numbers = mean_longitude is None and day is None, (year, window, threshold)
+    choice = Average(average, places, sun, is_true, constant, solar_constant_error, *numbers)
+    orbit = {name: series.obliquity.attrs[name] for name in ("orbit", "orbit_of")}
+    return _answer(choice, series, **orbit)
 
 
 @part
@@ -215,7 +369,7 @@ def neglected() -> Neglected:
 
 insolation = public_call(
     Insolation,
-    answer=daily_means,
+    answer=averages,
     sections={"long_term": long_term.series, "budget": long_term.budget, Neglected.PART: neglected},
     **long_term.SHARED,
 )
@@ -223,17 +377,30 @@ insolation = public_call(
 # --- insolation from an answer -------------------------------------------------------------------
 
 
+#: Arguments of earlier versions, each with what to give instead.
+_RENAMED = {
+    "solar_longitude": "give longitude",
+    "true_longitude": "give mean_longitude in place of longitude for mean longitudes",
+    "days": "give window",
+}
+
+
+@functools.partial(checked, hint=lambda name, allowed: _RENAMED.get(name) or nearest(name, allowed))
 @progress("insolation")
 def daily_insolation(
     result: xr.Dataset,
-    latitude: Any,
-    solar_longitude: Any,
-    true_longitude: bool = True,
+    latitude: Any = None,
+    longitude: Any = None,
     *,
-    days: Any = None,
+    mean: str | None = None,
+    mean_longitude: Any = None,
+    day: Any = None,
+    window: Any = None,
+    threshold: Any = None,
     solar_constant: Any = None,
-) -> xr.DataArray:
-    """Insolation at the top of the atmosphere, averaged over one or more days (Berger 1978).
+    solar_constant_error: Any = 0.0,
+) -> xr.Dataset:
+    """Insolation of any solution of obliquity and orbit, with the inputs of `insolation`.
 
     Longitudes are those of the Sun as seen from the body, along the orbit from the moving equinox:
     0 is the March equinox, 90 degrees the June solstice. (The `longitude_of_perihelion` of an
@@ -245,26 +412,35 @@ def daily_insolation(
         An answer of `long_term`, or of `read_solution`, which needs `solar_constant` and has no
         errors, so that those of the insolation are NaN.
     latitude : str, Quantity, DataArray or list of them
-        Latitude, like ``"65 deg"`` or ``"65N"``; plain numbers are radians.
-    solar_longitude : str, Quantity, DataArray or list of them
-        Longitude of the Sun, like ``"90 deg"``.
-    true_longitude : bool
-        True for true longitudes, False for mean longitudes. Mean longitudes grow linearly with time
-        from the March equinox, so that 90 degrees are a quarter of a year after the equinox.
-    days : str, Quantity or float, optional
+        Latitude, like ``"65 deg"`` or ``"65N"``, or a list of pairs (bands); plain numbers are
+        radians. Default: 65 deg.
+    longitude : str, Quantity, DataArray or list of them
+        True longitude of the Sun, like ``"90 deg"`` (the default), or first and last longitude of
+        an interval.
+    mean : str, optional
+        What is averaged, one of the words of `insolation`.
+    mean_longitude : str, Quantity, DataArray or list of them, optional
+        Mean longitude of the Sun, in place of `longitude`. It grows linearly with time from the
+        March equinox, so that 90 degrees are a quarter of a year after the equinox.
+    day : float or list of float, optional
+        Day of the Earth's calendar, in place of `longitude`; 80 is the March equinox.
+    window : str, Quantity or float, optional
         Length of a time window for the average, like ``"30 d"``, centred on the instant of the
-        longitude; by default, one day with the Sun at the longitude. A year of the Earth has
-        365.2422 days, because longitudes are counted from the moving equinox.
+        longitude or day. Lengths of time are counted in years of the seasons: 365.2422 days for the
+        Earth and for solutions that do not name their body.
+    threshold : str, Quantity or float, optional
+        Level of the daily insolation above which the summer is summed, like ``"275 W/m2"``.
     solar_constant : str, Quantity or float, optional
         Solar constant in W/m2 at the mean distance of the body; by default 1361 W/m2 at one
         astronomical unit (IAU 2015 Resolution B3). Many published tables use 1365 or more.
+    solar_constant_error : str, Quantity or float, optional
+        95 % half-width of the solar constant.
 
     Returns
     -------
-    DataArray
-        Insolation in W/m2 along `epoch`, and along `latitude` and `solar_longitude` if several are
-        given. The coordinate `daily_insolation_error` is the 95 % half-width from those of
-        obliquity, eccentricity and perihelion, which are treated as independent.
+    Dataset
+        The variables of `insolation` along `epoch`, and along latitude and longitude if several are
+        given, each with its 95 % half-width.
 
     Raises
     ------
@@ -277,59 +453,73 @@ def daily_insolation(
     >>> import earthspin
     >>> past = earthspin.long_term("-20 kyr", "0 kyr", "10 kyr")
     >>> june = earthspin.daily_insolation(past, "65 deg", "90 deg", solar_constant="1365 W/m2")
-    >>> print(june.round(1).values)
+    >>> print(june.insolation.round(1).values)
     [476.4 527.3 479.3]
     """
-    if not {*_NEEDED} <= {*getattr(result, "data_vars", ())}:
+    if not {*ELEMENTS} <= {*getattr(result, "data_vars", ())}:
         raise Where("result", _CALL).error(type(result).__name__, "give an answer of long_term")
-    if not isinstance(true_longitude, (bool, np.bool_)):
-        raise Where("true_longitude", _CALL).error(true_longitude, "give True or False")
+    keys = keys_of(Insolation)
+
+    def error(name: str, value: object, problem: str) -> SceneError:
+        return Where(name, _CALL).error(value, problem)
+
+    def read(name: str, value: Any) -> Any:
+        if value is None:
+            return keys[name].default if name in ("latitude", "longitude") else None
+        if name in ("latitude", "longitude", "mean_longitude"):
+            return _angle(value, name, result, values.get("latitude"))
+        return keys[name].kind.read(value, Where(name, _CALL))
+
+    seasons = {"longitude": longitude, "mean_longitude": mean_longitude, "day": day}
+    several = [name for name, value in seasons.items() if value is not None]
+    if len(several) > 1:
+        raise error(several[1], "...", f"give it without {several[0]}")
+    given = {"latitude": latitude, **seasons, "window": window, "threshold": threshold}
+    values: dict[str, Any] = {}
+    for name, value in given.items():
+        values[name] = read(name, value)
+    average = _mean(read("mean", mean), values["window"])
+    check_inputs(average, values, error)
+    constant, year = _scales(result, read("solar_constant", solar_constant), average)
+    window, threshold = values.pop("window"), values.pop("threshold")
+    if window is not None and window > year:
+        raise error("window", f"{window / DAY:g} d", "give at most a year")
+    places, sun = _places(average, **values)
+    uncertain = read("solar_constant_error", solar_constant_error)
+    is_true, numbers = several in ([], ["longitude"]), (year, window, threshold)
+    choice = Average(average, places, sun, is_true, constant, uncertain, *numbers)
+    if "epoch" in result[ELEMENTS[0]].dims:
+        return _answer(choice, result).dataset()
+    return _answer(choice, result.expand_dims("epoch")).dataset().isel(epoch=0)
+
+
+def _scales(result: xr.Dataset, solar_constant: float | None, mean: str) -> tuple[float, float]:
+    """Solar constant, W/m2, and year of the seasons, s, of the body of a solution."""
     body = str(result["obliquity"].attrs.get("orbit_of", ""))
-    year, window = BODIES[body].orbital_period if body in BODIES else None, None
-    mean = "mean over a day"
-    if year is None and (days is not None or solar_constant is None):
-        name, remove = body or "the body of this solution", " and remove days" * (days is not None)
-        remedy = f"give solar_constant, like '1361 W/m2' for the Earth{remove}"
+    sidereal = BODIES[body].orbital_period if body in BODIES else None
+    timed = mean not in ("day", "year", "extremes", "all-extremes")
+    if sidereal is None and (solar_constant is None or (body and timed)):
+        name, remedy = (
+            body or "the body of this solution",
+            "give mean = 'day', 'year' or 'extremes'",
+        )
+        if solar_constant is None:
+            remedy = "give solar_constant, like '1361 W/m2' for the Earth"
         raise UndefinedError(f"{_CALL}: the year of {name} is not known; {remedy}")
-    if year is not None and days is not None:
-        words = "give one length of time, at most a year"
-        kind = Number("d", "30 d", above=0.0, high=year / DAY, limits=words)
-        length = kind.read(days, Where("days", _CALL))
-        window = length * DAY / _year_of_seasons(body, year)
-        mean = f"mean over {length:g} d"
-    if year is not None and solar_constant is None:
-        constant = _solar_constant(year)
-    else:
-        flux = Number("W/m2", "1361 W/m2", above=0.0, limits="give one number above zero")
-        constant = flux.read(solar_constant, Where("solar_constant", _CALL))
-    place = _place(latitude, "latitude", np.pi / 2, result)
-    sun = _place(solar_longitude, "solar_longitude", _TURN, result, place)
-    value, error = _with_error(result, place, sun, constant, window, bool(true_longitude))
-    error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
-    if f"{_NEEDED[0]}_error" not in result:
-        error.attrs["no_error"] = "the solution has no errors"
-    longitude = f"{'true' if true_longitude else 'mean'} longitude of the Sun"
-    value.attrs = {
-        "units": "W m-2",
-        "long_name": _SUNLIGHT,
-        "solar_constant": constant,
-        "comment": f"{mean}; {longitude} from the moving equinox",
-        "references": BERGER,
-    }
-    return value.rename(_CALL).assign_coords(daily_insolation_error=error)
+    year = CALENDAR_YEAR * DAY if sidereal is None else _year_of_seasons(body, sidereal)
+    return solar_constant or _solar_constant(sidereal or year), year
 
 
-def _place(
-    value: Any, name: str, limit: float, result: xr.Dataset, *others: xr.DataArray
-) -> xr.DataArray:
-    """Convert latitudes or longitudes to a DataArray in rad; lists get the dimension `name`."""
+def _angle(value: Any, name: str, result: xr.Dataset, latitude: Any) -> Any:
+    """Convert latitudes or longitudes to rad; labels fit those of the result and the latitude."""
     where = Where(name, _CALL)
-    angle = _in_radians(value, where, limit)
+    angle = _in_radians(value, where, np.pi / 2 if name == "latitude" else _TURN)
     if not isinstance(angle, xr.DataArray):
-        if np.ndim(angle) > 1:
-            raise where.error(value, "give one angle, or one list of angles")
-        return _labelled(angle, name, units="degree")
+        if np.ndim(angle) > 2 or (np.ndim(angle) == 2 and np.shape(angle)[1] != 2):
+            raise where.error(value, "give one angle, one list of angles, or one list of pairs")
+        return angle
     try:
+        others = [latitude] if isinstance(latitude, xr.DataArray) else []
         xr.align(result["obliquity"], *others, angle, join="exact")
     except ValueError as misfit:
         problem = f"give it the labels of the result, like epoch=result.epoch ({misfit})"
@@ -337,7 +527,7 @@ def _place(
     return angle
 
 
-# --- the computation of both ---------------------------------------------------------------------
+# --- scales of both ------------------------------------------------------------------------------
 
 
 def _solar_constant(year: float) -> float:
@@ -350,30 +540,3 @@ def _year_of_seasons(body: str, sidereal: float) -> float:
     """Year of which windows are fractions, s: tropical for the Earth, sidereal for other bodies."""
     tropical = CALENDAR_YEAR * DAY / EARTH.number("orbital_period")
     return sidereal * (tropical if body == EARTH.known_as else 1.0)
-
-
-def _with_error(
-    result: xr.Dataset,
-    latitude: xr.DataArray,
-    longitude: xr.DataArray,
-    solar_constant: float,
-    window: float | None,
-    is_true: bool,
-) -> tuple[xr.DataArray, xr.DataArray]:
-    """Compute insolation and its 95 % half-width from the obliquity and orbit in `result`.
-
-    The half-width is NaN if the solution has no errors.
-    """
-    values = [result[name] for name in _NEEDED]
-    errors = [result.get(f"{name}_error", np.nan * result[name]) for name in _NEEDED]
-    arrays = [*map(si, values), *map(si, errors), latitude, longitude]
-    labels = xr.broadcast(*arrays)[0]
-    eps, e, w, *half_widths, phi, sun = (  # they broadcast along all dimensions without copies
-        array.transpose(*labels.dims, missing_dims="ignore").values.reshape(
-            [array.sizes.get(name, 1) for name in labels.dims] or [1]
-        )
-        for array in xr.align(*arrays, join="outer", copy=False)
-    )
-    pair = with_error(Season(eps, e, w), Season(*half_widths), phi, sun, is_true, window)
-    value, error = (solar_constant * fraction.reshape(labels.shape) for fraction in pair)
-    return labels.copy(data=value), labels.copy(data=error)

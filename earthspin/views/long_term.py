@@ -101,7 +101,12 @@ _SEASONS = ("March equinox", "June solstice", "September equinox", "December sol
 _AXES = {
     "latitude": ("latitude (deg)", "latitude {:g}°"),
     "longitude": ("true longitude of the Sun (deg)", "Sun at {:g}°"),
+    "mean_longitude": ("mean longitude of the Sun (deg)", "Sun at mean {:g}°"),
     "day": ("day of the year", "day {:g}"),
+    "band": ("latitudes (deg)", "{}°"),
+    "interval": ("longitudes (deg)", "Sun at {}°"),
+    "season": ("season", "{}"),
+    "extreme": ("extreme", "extreme {}"),
     "epoch": ("time from J2000.0 (1000 years)", "{:g} kyr"),
 }
 
@@ -117,9 +122,10 @@ def _words(line: xr.Dataset, name: str) -> str:
 
 
 def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the insolation over time as lines with error bands, or as a map if lines are too many.
+    """Draw an insolation over time as lines with error bands, or as a map if lines are too many.
 
-    For a single epoch, the horizontal axis is the longest of the other dimensions.
+    The first variable of the answer is drawn, such as `caloric_summer`. For a single
+    epoch, the horizontal axis is the longest of the other dimensions.
 
     Parameters
     ----------
@@ -129,6 +135,9 @@ def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     answer, ax = in_order(answer_of(result)), axes(ax, 8.0, 3.8)
+    variable = str(next(iter(answer.data_vars)))
+    name = "insolation" if variable == "insolation" else answer[variable].long_name
+    label = f"{name} ({answer[variable].units.replace('W m-2', 'W/m²')})"
     size = answer.sizes
     dims = [str(name) for name in sorted(size, key=lambda name: -size[name]) if size[name] > 1]
     across = "epoch" if size["epoch"] > 1 or not dims else dims[0]
@@ -145,20 +154,20 @@ def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
         constant.remove(others[0])
         data = answer.isel(dict.fromkeys(others[1:], 0)).transpose(others[0], across)
         x, y = data[across].values, data[others[0]].values
-        image = ax.contourf(x, y, data.insolation.values, levels=13)
+        image = ax.contourf(x, y, data[variable].values, levels=13)
         ax.set(ylabel=_AXES[others[0]][0], title=place(data))
-        ax.figure.colorbar(image, ax=ax, label="insolation (W/m²)")
+        ax.figure.colorbar(image, ax=ax, label=label)
         return ax
     lines = (
         answer.isel(dict(zip(others, index, strict=True)))
         for index in product(*(range(size[name]) for name in others))
     )
     for colour, line in zip(drawing.CYCLE, lines, strict=False):
-        x, value, error = line[across].values, line.insolation.values, line.insolation_error.values
+        x, value, error = (line[name].values for name in (across, variable, f"{variable}_error"))
         marker = "o" if x.size == 1 else None
         drawing.band(ax, x, value, error, colour, lw=1.0, marker=marker, label=place(line))
     ax.margins(x=0)
-    ax.set_ylabel("insolation (W/m²)")
+    ax.set_ylabel(label)
     if others:
         drawing.legend_above(ax)
     else:
@@ -283,7 +292,7 @@ FIGURES = [
 
 INSOLATION = PageFigure(
     "Insolation",
-    "Sunlight at the top of the atmosphere, averaged over a day or the given window. The true "
+    "Sunlight at the top of the atmosphere, averaged over a day or as given by `mean`. The true "
     f"longitude of the Sun is 90° at the June solstice. {BANDS}",
     plot_insolation,
 )

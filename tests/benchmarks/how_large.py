@@ -42,7 +42,7 @@ def past(kyr: int) -> xr.Dataset:
 
 def insolation(answer: xr.Dataset) -> xr.Dataset:
     """Insolation at 180 latitudes at the June solstice."""
-    return earthspin.daily_insolation(answer, list(LATITUDES), "90 deg").to_dataset()
+    return earthspin.daily_insolation(answer, list(LATITUDES), "90 deg")
 
 
 #: By call: what the size counts, sizes, and the call; insolation is given an answer of `past`.

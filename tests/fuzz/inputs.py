@@ -274,7 +274,7 @@ SOUND: dict[str, dict[str, Any]] = {
     },
     "Orbit": {"a": "384399 km"},
     "Scene": {"compute": "precession"},
-    "daily_insolation": {"result": ANSWER, "latitude": "65 deg", "solar_longitude": "90 deg"},
+    "daily_insolation": {"result": ANSWER, "latitude": "65 deg", "longitude": "90 deg"},
     "ensemble": {"question": "precession", "members": 2},
     "orbit.to_file": {"path": "orbit.npz"},
     "read_orbit": {"path": _ROWS},

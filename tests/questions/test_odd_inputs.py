@@ -236,8 +236,8 @@ def test_latitudes_along_other_epochs(latitude: xr.DataArray) -> None:
     with pytest.raises(SceneError, match=r"longitude.*epoch"):
         earthspin.daily_insolation(PAST, "65 deg", latitude)
     fitting = xr.DataArray([0.1, 0.2, 0.3], dims="epoch")
-    along = earthspin.daily_insolation(PAST, fitting, "90 deg")
-    alone = earthspin.daily_insolation(PAST, [0.1, 0.2, 0.3], "90 deg")
+    along = earthspin.daily_insolation(PAST, fitting, "90 deg").insolation
+    alone = earthspin.daily_insolation(PAST, [0.1, 0.2, 0.3], "90 deg").insolation
     diagonal = [float(alone[i, i]) for i in range(3)]
     assert along.values == pytest.approx(diagonal, rel=1e-14, abs=0)
 
