@@ -308,18 +308,20 @@ def _places(
     return places, _labelled(angles[name], name, units="deg", long_name=words)
 
 
+def _text(label: xr.DataArray) -> str:
+    return f"{label.item():g}" if label.dtype.kind == "f" else str(label.item())
+
+
 def _answer(choice: Average, series: xr.Dataset, **attributes: Any) -> InsolationSeries:
     """Means of a solution, with the attributes of `insolation`."""
     coordinates = [c for array in (*choice.places, *choice.sun) for c in array.coords.values()]
-    single = {
-        c.name: f"{c.item():g}" if c.dtype.kind == "f" else c.item()
-        for c in coordinates
-        if not c.ndim
+    words = {
+        "day": "mean over a day",
+        "window": f"mean over {(choice.window or 0.0) / DAY:g} d",
+        "above": f"threshold {choice.threshold} W/m2",
     }
-    units = {c.name: c.attrs.get("units", "") for c in coordinates}
-    words = {"day": "a day", "window": f"{(choice.window or 0.0) / DAY:g} d"}
-    places = [f"{name} {value} {units[name]}" for name, value in single.items()]
-    comment = ", ".join([f"mean over {words.get(choice.mean, choice.mean)}", *places])
+    places = [f"{c.name} {_text(c)} {c.attrs.get('units', '')}" for c in coordinates if not c.ndim]
+    comment = ", ".join([words.get(choice.mean, f"mean: {choice.mean}"), *dict.fromkeys(places)])
     attributes |= {"solar_constant": choice.constant, "comment": comment}
     values, schema = choice.of(series), InsolationSeries.schema
     pairs = {n: pair if f"{n}_error" in schema else pair[0] for n, pair in values.items()}
