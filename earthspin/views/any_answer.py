@@ -37,16 +37,17 @@ def any_drawing(data: xr.Dataset) -> list[Drawing]:
     for ax, (name, columns) in zip(rows, shown.items(), strict=False):
         for colour, column in zip(CYCLE, columns, strict=False):
             errors = np.zeros(x.size) if column.errors is None else column.errors.values
-            how = {"color": colour, "label": drawing.literal(column.head)}
+            words = drawing.literal(column.head)
             if x is labels:
-                drawing.band(ax, x, column.numbers, errors, colour, lw=1.0, label=how["label"])
+                drawing.band(ax, x, column.numbers, errors, colour, lw=1.0, label=words)
             else:
-                ax.errorbar(x, column.numbers, errors, fmt="o", capsize=3, **how)
+                bars = ax.errorbar(x, column.numbers, errors, fmt="o", capsize=3, color=colour)
+                bars.set_label(words)
         ax.set_ylabel(_label(data[name]))
         if len(columns) > 1:
             ax.legend(fontsize=7)
     if x is not labels:
-        drawing.rungs(rows[-1], labels)
+        drawing.rungs(rows[-1], labels.tolist())
     elif labels.dtype.kind == "M":
         drawing.few_dates(rows[-1])
     rows[-1].set_xlabel(_label(data[dim]))

@@ -213,7 +213,7 @@ def _side_by_side(plot: Callable[..., Axes | Figure], cases: Mapping[str, Result
     if len(cases) == 1 or not {"ax", "figure"} & {*takes}:
         return figure_of(plot(next(iter(cases.values()))))
     figure = empty(10, 3.2 * math.ceil(len(cases) / 2))
-    parts = figure.subfigures(math.ceil(len(cases) / 2), 2).flat
+    parts: Any = figure.subfigures(math.ceil(len(cases) / 2), 2, squeeze=False).flat
     for part, (words, case) in zip(parts, cases.items(), strict=False):
         part.suptitle(words)
         plot(case, **({"ax": part.add_subplot()} if "ax" in takes else {"figure": part}))

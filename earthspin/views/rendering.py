@@ -165,8 +165,9 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
     needed = {name for f in _views(answer).figures for name in (f.section, *f.uses)}
     with suppress(EarthspinError):  # a part of an answer, a function of the caller, a short record
         names = [name for name in plan(answer, "all").sections if name in needed]
-        sections = run_tree(answer, names) if names else None
-        nodes |= {name: sections.earthspin.section(name) for name in names}
+        if names:
+            sections = run_tree(answer, names)
+            nodes |= {name: sections.earthspin.section(name) for name in names}
     return [drawing.figure for drawing in drawings_for(xr.DataTree.from_dict(nodes))]
 
 

@@ -96,15 +96,19 @@ MOST_CASES = 6
 
 def cases_of(result: Result) -> dict[str, Result]:
     """The first bodies or initial states of a result, each with its labels as text."""
-    data, cases = dataset_of(result), {}
+    data = dataset_of(result)
+    cases: dict[str, Result] = {}
     dims = [] if is_ensemble(data) else [*_case_dims(data, result.attrs)]
     if not dims:
         return {"": result}
     for place in islice(product(*(range(data.sizes[dim]) for dim in dims)), MOST_CASES):
         at: Any = dict(zip(dims, place, strict=True))
         words = ", ".join(f"{dim} {data[dim].values[number]}" for dim, number in at.items())
-        over = xr.Dataset.pipe if isinstance(result, xr.Dataset) else xr.DataTree.map_over_datasets
-        cases[words] = over(result, partial(xr.Dataset.isel, indexers=at, missing_dims="ignore"))
+        case = partial(xr.Dataset.isel, indexers=at, missing_dims="ignore")
+        if isinstance(result, xr.Dataset):
+            cases[words] = case(result)
+        else:
+            cases[words] = result.map_over_datasets(case)
     return cases
 
 
@@ -113,7 +117,8 @@ def resampled(result: Result, points: int) -> Result:
     data = dataset_of(result)
     if not is_whole(data) or data.sizes["time"] >= points:
         return result
-    times = np.linspace(*data.time.values[[0, -1]], points)
+    first, last = data.time.values[[0, -1]].tolist()
+    times = np.linspace(first, last, points)
     names = [name for name in getattr(result, "children", ()) if name != "plan"]
     return run_tree(load_scene(data).replace(times=times, duration=None, points=None), names)
 
@@ -129,7 +134,7 @@ def laid_out(data: xr.Dataset) -> xr.Dataset:
     labels = {dim: ((dim,), data[dim].values[None], data[dim].attrs) for dim in single}
     arrays = {}
     for name, dims in declared.items():
-        array = data[name].variable
+        array: Any = data[name].variable
         own = [dim for dim in dims if dim in array.dims or dim in single]
         arrays[name] = array.set_dims([*own, *(dim for dim in array.dims if dim not in dims)])
     return data.drop_vars(single).assign(arrays).assign_coords(labels)

@@ -467,8 +467,9 @@ def _notes(data: xr.Dataset, columns: Iterable[DataColumn], noted: set[str]) -> 
 
 def _aligned(values: Any, digits: int) -> list[str]:
     """Text of the values of a column, all with as many decimals as the largest needs."""
-    sizes = np.abs(values[np.isfinite(values) & (values != 0)]) if values.dtype.kind == "f" else ()
-    if not len(sizes) or sizes.max() >= LARGE or sizes.min() < sizes.max() / 10.0 ** (digits - 2):
+    real = values if values.dtype.kind == "f" else np.zeros(0)
+    sizes = np.abs(real[np.isfinite(real) & (real != 0)])
+    if not sizes.size or sizes.max() >= LARGE or sizes.min() < sizes.max() / 10.0 ** (digits - 2):
         return [_text(value, digits) for value in values.tolist()]
     most = max(0, digits - 1 - math.floor(math.log10(sizes.max())))
     rounded = np.round(sizes, most)
