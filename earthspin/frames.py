@@ -25,6 +25,7 @@ from earthspin.engine import Question, scene_of, si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
+from earthspin.questions.rotation import ARBITRARY, x_axis_note
 from earthspin.questions.time_axes import epochs
 from earthspin.scenes import load_scene, members_of, run, run_tree, versions_of, warn_of_versions
 from earthspin.secular.derived_angles import NO_EQUINOX, equator_and_equinox, equinox_error
@@ -179,6 +180,10 @@ def _rotation(model: Model, times: FloatArray) -> FrameMatrices:
     if times.min() < first - MICROSECOND:
         problem = f"the rotation starts at {date_text(first, 'us')} TDB; take a later time"
         raise SceneError("obstime", date_text(times.min(), "us"), problem)
+    x_axis = x_axis_note(model.question.body, model.question.start_attitude)  # type: ignore[attr-defined]
+    if x_axis.startswith(ARBITRARY):
+        problem = f"its x axis is {x_axis}; set prime_meridian of the body, or give start_attitude"
+        raise SceneError("model", f"{model}", problem)
     answer = run(model.at(_tdb(np.array([first, *np.maximum(times, first)]))))
     answer = answer.isel(time=slice(1, None))
     # times of an answer are rounded to a microsecond

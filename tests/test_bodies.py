@@ -170,7 +170,7 @@ def test_a_changed_number_may_carry_its_unit() -> None:
 
     assert EARTH.replace(spin_period="12 h").spin_period == 43200.0
     assert EARTH.replace(radius=6378 * u.km).radius == 6378e3
-    assert EARTH.replace(meridian="180 deg").meridian == math.pi
+    assert EARTH.replace(long_axis="180 deg").long_axis == math.pi
     assert MARS.replace(pole=("90 deg", 30 * u.deg)).pole == pytest.approx(
         (math.pi / 2, math.pi / 6), rel=1e-15, abs=0
     )

@@ -34,8 +34,9 @@ from earthspin.units import Text, is_si
 
 #: Fields that hold a number, or None if it is not known.
 NumberName = Literal[
-    "gm", "radius", "j2", "dynamical_flattening", "triaxiality", "j3", "j4", "j2_rate", "meridian",
-    "flattening", "spin_period", "pole_uncertainty", "orbital_period",
+    "gm", "radius", "j2", "dynamical_flattening", "triaxiality", "j3", "j4", "j2_rate",
+    "prime_meridian", "prime_meridian_uncertainty", "long_axis", "flattening", "spin_period",
+    "pole_uncertainty", "orbital_period",
 ]  # fmt: skip
 #: Values of the key "from" in a table of a body: all numbers are in the table, or the figure
 #: follows from its layers.
@@ -70,9 +71,14 @@ class Body(shapes.FromMass):
         Zonal coefficients beyond J2, unnormalised, with the sign of geodesy's J_n.
     j2_rate : float
         Rate of change of `j2`, s-1.
-    meridian : float
-        Angle at J2000.0 TDB from the x axis of the ICRF, projected on the equator, to the axis of
-        least moment, rad.
+    prime_meridian : float or None
+        Angle W at J2000.0 TDB, along the equator of date, from its ascending node on the equator of
+        the ICRF to the prime meridian, rad; it grows by one turn in each `spin_period`. None if it
+        is not known, and for the pole `IAU_2006`, whose prime meridian follows from UT1.
+    prime_meridian_uncertainty : float or None
+        One standard deviation of `prime_meridian`, rad; None if it is not known.
+    long_axis : float
+        East longitude of the axis of least moment, rad.
     flattening : float
         (a - c) / a of the figure, the ellipticity epsilon of (I.9.38).
     spin_period : float
@@ -144,7 +150,9 @@ class Body(shapes.FromMass):
     j3: Annotated[Numeric, Magnitude("", "-2.53e-6")] = 0.0
     j4: Annotated[Numeric, Magnitude("", "-1.62e-6")] = 0.0
     j2_rate: Annotated[Numeric, Magnitude("1/s", "-9.5e-19 1/s")] = 0.0
-    meridian: Annotated[float, Magnitude("rad", "10 deg")] = 0.0
+    prime_meridian: Annotated[float | None, Magnitude("rad", "329.6 deg")] = None
+    prime_meridian_uncertainty: Annotated[float | None, Magnitude("rad", "0.1 deg")] = None
+    long_axis: Annotated[float, Magnitude("rad", "75 deg")] = 0.0
     flattening: Annotated[Numeric | None, Magnitude("", "3.35e-3", "(a - c)/a")] = None
     spin_period: Annotated[Numeric | None, Magnitude("s", "23.93 h")] = None
     pole: Annotated[PoleModel | None, PoleInText()] = None
@@ -211,6 +219,9 @@ class Body(shapes.FromMass):
         checks.check_numbers(self._fields(), self.UNITS)
         if obliquity is not None:
             object.__setattr__(self, "pole", self._pole_at(obliquity))
+        if self.prime_meridian is not None and self.pole is not None and self.pole.of_the_iau:
+            allowed = "the prime meridian of the pole iau2006 follows from UT1; set another pole"
+            raise BodyError(self.name, "prime_meridian", self.prime_meridian, allowed)
 
     def _pole_at(self, value: object) -> PoleModel:
         """Spin axis, fixed in space, with another obliquity but the same equinox direction."""
@@ -340,8 +351,13 @@ class Body(shapes.FromMass):
             return _placed(value, where) if hasattr(value, "target") else body(value, where)
         table = dict(value)
         start = table.pop("from", "earth")
+        meridian = table.pop("meridian", None)
         where.refuse_unknown(table, ["from", *_CONVERTERS])
         changes = {key: _CONVERTERS[key].read(entry, where.at(key)) for key, entry in table.items()}
+        if meridian is not None:
+            of_the_iau = changes.get("pole", start == "earth" and "iau2006") == "iau2006"
+            angle = Magnitude("rad", "10 deg").read(meridian, where.at("meridian"))
+            changes |= _without_meridian(angle, of_the_iau)
         if "from" not in value and "name" in changes:
             allowed = "write from = 'earth' or another to change, from = 'nothing' for a new body"
             raise where.error(dict(table), allowed)
@@ -548,6 +564,8 @@ class Body(shapes.FromMass):
         obliquity = changes.pop("obliquity", None)
         if obliquity is not None and changes.get("pole") is not None:
             raise BodyError(self.name, "obliquity", obliquity, _ONE_AXIS)
+        if changes.get("prime_meridian") is not None:
+            changes.setdefault("prime_meridian_uncertainty", None)
         changes |= self._figure(changes)
         another_orbit = self.orbit is not None or obliquity is not None
         if changes.get("orbit") is not None and another_orbit:
@@ -625,7 +643,8 @@ class Body(shapes.FromMass):
 Body.KINDS = kinds.kinds_of(Body)
 Body.UNITS = {name: kind.unit for name, kind in Body.KINDS.items() if isinstance(kind, Magnitude)}
 Body.LABELLED = frozenset(Body.UNITS) - {
-    "meridian", "pole_uncertainty", "orbital_period", "cycle", "slow_swing",
+    "prime_meridian", "prime_meridian_uncertainty", "long_axis", "pole_uncertainty",
+    "orbital_period", "cycle", "slow_swing",
 }  # fmt: skip
 
 #: Converters of all keys by which a body can be created or changed.
@@ -658,10 +677,25 @@ def _missing_fields(start: str, table: Mapping[str, Any]) -> str:
     return f"needs more, like {', '.join(missing)}{spins}"
 
 
+#: Value of `meridian` of the Earth in scenes before `prime_meridian`, rad.
+_EARLIER_MERIDIAN = 4.629755030133973
+
+
+def _without_meridian(meridian: float, of_the_iau: bool) -> dict[str, float | None]:
+    """Fields that replace `meridian` of earlier scenes, rad.
+
+    It was the angle at J2000.0 from the projected x axis of the ICRF to the axis of least moment.
+    """
+    if of_the_iau:
+        meridian = meridian - _EARLIER_MERIDIAN + BODIES["earth"].long_axis
+    return {"prime_meridian": None, "long_axis": meridian}
+
+
 #: Advice for quantities that are no fields where they were given.
 _ADVICE = {
     "mass": f"give gm = {c.G.value:g} m3 kg-1 s-2 * mass",
     "polar_moment_factor": "set dynamical_flattening = j2/polar_moment_factor",
+    "meridian": "give prime_meridian, from the node of the equator, and long_axis",
 }
 
 #: Fields omitted from the body's card, and fields shown in its repr.

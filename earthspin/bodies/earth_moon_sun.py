@@ -9,6 +9,38 @@ from earthspin.bodies.body import Body
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, EPSILON_0, Constant, Tabulated
 from earthspin.sky.poles import IAU_2006, Direction, MovingPole
 
+# --- prime meridians ------------------------------------------------------------------------------
+# Angle W of the IAU at J2000.0 TDB, with the periodic terms at that date. Its rate is that of the
+# spin period.
+
+IAU_2015 = "Archinal et al. 2018, Celest. Mech. 130:22 (IAU 2015)"
+
+
+def prime_meridian(
+    w: float, *terms: tuple[float, float], half_width: float | None = None, source: str = IAU_2015
+) -> dict[str, Constant]:
+    """Fields of a body for its prime meridian at J2000.0 TDB, from published angles in degrees.
+
+    Parameters
+    ----------
+    w : float
+        Constant part of W.
+    *terms : tuple of float
+        Amplitude and phase at J2000.0 of each sine term.
+    half_width : float or None
+        95 % half-width of the angle, also as the start of a motion.
+    source : str
+        Publication of W.
+    """
+    angle = w + sum(size * math.sin(math.radians(phase)) for size, phase in terms)
+    numbers = {"prime_meridian": Constant(math.radians(angle), "rad", None, source, c.PCK11)}
+    if half_width is not None:
+        numbers["prime_meridian_uncertainty"] = Constant(
+            math.radians(half_width) / c.NORMAL_95, "rad", None, source, c.PCK11
+        )
+    return numbers
+
+
 # --- Earth ----------------------------------------------------------------------------------------
 
 _EGM2008 = "Pavlis et al. 2012, JGR 117, B04406 (EGM2008)"
@@ -28,8 +60,15 @@ _WOBBLE_READ = "value and uncertainty as quoted in a text on the wobble in a pub
 _C22, _S22 = 2.43938357e-6, -1.40027370e-6
 #: Earth Rotation Angle, turns: rate per day of UT1, and value at J2000.0 UT1.
 _TURNS_A_DAY, _TURNS_AT_START = 1.00273781191135448, 0.7790572732640
-#: Longitude of the axis of least moment, rad.
-EARTH_LONG_AXIS = math.atan2(_S22, _C22) / 2
+#: Angle of the prime meridian at J2000.0 TDB from the x axis of the GCRS, projected on the equator:
+#: the Earth Rotation Angle at UT1 = TDB - 63.83 s.
+EARTH_ANGLE = Constant(
+    2 * math.pi * (_TURNS_AT_START - _TURNS_A_DAY * 63.83 / DAY),
+    "rad",
+    None,
+    _ROTATION_ANGLE,
+    "ERFA, eraEra00",
+)
 
 EARTH_NUMBERS = {
     "gm": Constant(398600.435507e9, "m3 s-2", 8e5, _GM, c.GM_HORIZONS),
@@ -44,14 +83,8 @@ EARTH_NUMBERS = {
     "j3": Constant(-9.57161207e-7 * math.sqrt(7.0), "", None, _EGM2008, _EGM2008_READ),
     "j4": Constant(-5.39965866e-7 * 3.0, "", None, _EGM2008, _EGM2008_READ),
     "j2_rate": Constant(-3.001e-9 / (DAYS_PER_CENTURY * DAY), "s-1", None, _REBOUND, _REBOUND_READ),
-    # Angle of the axis of least moment at J2000.0 TDB from the x axis of the GCRS: the Earth
-    # Rotation Angle at UT1 = TDB - 63.83 s, and the longitude of that axis, -14.93 deg.
-    "meridian": Constant(
-        2 * math.pi * (_TURNS_AT_START - _TURNS_A_DAY * 63.83 / DAY) + EARTH_LONG_AXIS,
-        "rad",
-        1e-4,
-        f"{_ROTATION_ANGLE}; {_EGM2008}",
-        f"ERFA, eraEra00; {_EGM2008_READ}",
+    "long_axis": Constant(
+        math.atan2(_S22, _C22) / 2, "rad", None, f"{_EGM2008}, degree 2, order 2", _EGM2008_READ
     ),
     "pole_uncertainty": Constant(
         (EPSILON_0.uncertainty or 0.0) * ARCSEC, "rad", None, EPSILON_0.source, EPSILON_0.read_in
@@ -96,6 +129,31 @@ MOON_J2 = Constant(
 _B = (1 + MOON_GAMMA.value) / (1 + MOON_BETA.value)
 _H = 1 - (_B - MOON_GAMMA.value / 2)
 
+MOON_POLE = Tabulated(
+    "pole of the Moon", "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)", c.PCK11
+)
+#: Arguments of the IAU: phase at J2000.0 (deg) and rate (deg/d) of E1 to E13.
+_POLE_TERMS = {
+    1: (125.045, -0.0529921),
+    2: (250.089, -0.1059842),
+    3: (260.008, 13.0120009),
+    4: (176.625, 13.3407154),
+    5: (357.529, 0.9856003),
+    6: (311.589, 26.4057084),
+    7: (134.963, 13.0649930),
+    8: (276.617, 0.3287146),
+    9: (34.226, 1.7484877),
+    10: (15.134, -0.1589763),
+    11: (119.743, 0.0036096),
+    12: (239.961, 0.1643573),
+    13: (25.053, 12.9590088),
+}
+#: Amplitudes of the terms of W, deg.
+_MERIDIAN_TERMS = {
+    1: 3.5610, 2: 0.1208, 3: -0.0642, 4: 0.0158, 5: 0.0252, 6: -0.0066, 7: -0.0047, 8: -0.0046,
+    9: 0.0028, 10: 0.0052, 11: 0.0040, 12: 0.0019, 13: -0.0044,
+}  # fmt: skip
+
 MOON_NUMBERS = {
     "gm": Constant(4902.800118e9, "m3 s-2", 4.2e4, _MOON_GM, c.GM_HORIZONS),
     "radius": Constant(1738.0e3, "m", None, "reference radius of " + _GRAIL, _DE430_READ),
@@ -111,22 +169,12 @@ MOON_NUMBERS = {
     "cycle": Constant(
         1296000.0 / 6962890.5431 * DAYS_PER_CENTURY * DAY, "s", 0.0, _NODE, "ERFA, eraFaom03"
     ),
-}
-
-MOON_POLE = Tabulated(
-    "pole of the Moon", "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)", c.PCK11
+} | prime_meridian(
+    38.3213,
+    *((size, _POLE_TERMS[n][0]) for n, size in _MERIDIAN_TERMS.items()),
+    # the periodic terms at other dates
+    half_width=7.0,
 )
-#: Terms of the IAU pole: phase at J2000.0 (deg) and rate (deg/d) of E1 to E4, E6, E7, E10, E13.
-_POLE_TERMS = {
-    1: (125.045, -0.0529921),
-    2: (250.089, -0.1059842),
-    3: (260.008, 13.0120009),
-    4: (176.625, 13.3407154),
-    6: (311.589, 26.4057084),
-    7: (134.963, 13.0649930),
-    10: (15.134, -0.1589763),
-    13: (25.053, 12.9590088),
-}
 
 
 def _pole_terms(sizes: dict[int, float]) -> list[tuple[float, float, float]]:

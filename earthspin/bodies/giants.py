@@ -11,7 +11,8 @@ import math
 
 from earthspin import constants as c
 from earthspin.bodies.body import Body
-from earthspin.bodies.inner import IAU_2015, SWING
+from earthspin.bodies.earth_moon_sun import IAU_2015, prime_meridian
+from earthspin.bodies.inner import SWING
 from earthspin.bodies.orbit import Orbit, Satellite
 from earthspin.bodies.shapes import flattening_of
 from earthspin.constants import ARCSEC, AU, DAY, JULIAN_YEAR, Constant, Tabulated
@@ -132,11 +133,12 @@ def _year(days: float) -> Constant:
 
 
 def _numbers(
-    planet: str, gm: float, radius: float, j2: Constant, spin: float, orbit: Constant
+    planet: str, gm: float, radius: float, j2: Constant, spin: float, orbit: Constant, w: float
 ) -> dict[str, Constant]:
     """Return the numerical fields of a giant planet by field name, each with its source.
 
-    GM, that of planet and satellites, is in km3 s-2, the radius in km and the spin in deg/d.
+    GM, that of planet and satellites, is in km3 s-2, the radius in km, the spin in deg/d, and the
+    prime meridian W at J2000.0 in deg.
     """
     alone = gm * 1e9 - sum(moon["gm"].value for moon in SATELLITES[planet].values())
     source = f"{c.DE440}, less the large satellites ({_GM})"
@@ -147,7 +149,7 @@ def _numbers(
         "spin_period": Constant(360.0 / spin * DAY, "s", None, IAU_2015, c.PCK11),
         "orbital_period": orbit,
         "slow_swing": SWING,
-    }
+    } | prime_meridian(w)
 
 
 def _orbit(
@@ -216,6 +218,7 @@ _JUPITER = _numbers(
     Constant(14696.57e-6, "", 1e-8, _JUNO, _CODES + "14696.5735e-6 at 71,492 km"),
     870.536,
     c.JUPITER_ORBITAL_PERIOD,
+    284.95,
 )
 _SATURN = _numbers(
     "saturn",
@@ -224,6 +227,7 @@ _SATURN = _numbers(
     Constant(16290.57e-6, "", 3e-8, _CASSINI, _CODES + "16290.573e-6 +- 0.028e-6 at 60,330 km"),
     810.7939024,
     _year(10759.22),
+    38.90,
 )
 
 JUPITER = Body.cited(
@@ -280,6 +284,7 @@ URANUS = Body.cited(
         Constant(3510.7e-6, "", 7e-7, _URANUS, _CODES + "3510.68e-6 at 25,559 km"),
         -501.1600928,
         _year(30688.5),
+        203.81,
     ),
     naif=(799, 7),
     pole=MovingPole.published((257.311, 0.0), (-15.175, 0.0)),
@@ -296,6 +301,7 @@ NEPTUNE = Body.cited(
         Constant(3408.4e-6, "", 5e-6, _NEPTUNE, _CODES + "3408.43e-6 +- 4.5e-6 at 25,225 km"),
         541.1397757,
         _year(60182.0),
+        249.978 - 0.48 * math.sin(math.radians(357.85)),
     ),
     naif=(899, 8),
     pole=MovingPole.published(

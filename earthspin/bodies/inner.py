@@ -6,6 +6,7 @@ import math
 
 from earthspin import constants as c
 from earthspin.bodies.body import Body
+from earthspin.bodies.earth_moon_sun import IAU_2015, prime_meridian
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.shapes import flattening_of
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR, Constant, Tabulated
@@ -13,7 +14,6 @@ from earthspin.sky.poles import Direction, FixedPole, MovingPole
 
 # --- Mercury and Venus ----------------------------------------------------------------------------
 
-IAU_2015 = "Archinal et al. 2018, Celest. Mech. 130:22 (IAU 2015)"
 ELEMENTS = "Standish & Williams, approximate elements, sidereal"
 POLES = Tabulated("poles of Mercury and Venus", IAU_2015, c.PCK11)
 PLANES = Tabulated("planes of the orbits of Mercury and Venus", ELEMENTS, c.STANDISH_READ)
@@ -24,6 +24,10 @@ _MARGOT_2012 = "Margot et al. 2012, JGR 117, E00L09"
 _MARGOT_2012_READ = "abstract, doi.org/10.1029/2012JE004161"
 _MARGOT_2021 = "Margot et al. 2021, Nature Astronomy 5, 676"
 _MARGOT_2021_READ = "abstract, arXiv:2103.01504"
+_VENUS_SPIN = (
+    f"{_MARGOT_2021}: mean of 15 years, within 0.0013 d; uncertainty: the observed days differ by "
+    "61 ppm, half of which is taken as the half-width of 95 %"
+)
 _VERMA = "Verma & Margot 2016, JGR Planets (arXiv:1608.01360)"
 _VERMA_READ = "abstract, arXiv:1608.01360"
 _GRAVITY_READ = "mockingbirdnest/Principia, astronomy/sol_gravity_model.proto.txt"
@@ -47,7 +51,8 @@ _VENUS_J2 = Constant(
 VENUS_MOMENT = Constant(0.337, "", 0.024, _MARGOT_2021, _MARGOT_2021_READ)
 #: Observed precession rate of the spin axis in the plane of the orbit.
 VENUS_PRECESSION = Constant(44.58, "arcsec yr-1", 3.3, _MARGOT_2021, _MARGOT_2021_READ)
-
+#: Amplitudes of the libration in longitude, deg, of multiples of the mean anomaly.
+_MERCURY_LIBRATION = (0.01067257, -0.00112309, -0.00011040, -0.00002539, -0.00000571)
 
 MERCURY = Body.cited(
     "mercury",
@@ -67,7 +72,14 @@ MERCURY = Body.cited(
         "pole_uncertainty": Constant(
             0.085 * 60 * ARCSEC, "rad", None, _STARK, "abstract of the paper"
         ),
-    },
+    }
+    # A bound: the motion starts without the libration in longitude, and in 20 years stays within
+    # -0.31 to +0.56 deg of W.
+    | prime_meridian(
+        329.5988,
+        *((size, 174.7910857 * (n + 1)) for n, size in enumerate(_MERCURY_LIBRATION)),
+        half_width=0.6,
+    ),
     naif=(199, 1),
     pole=MovingPole.published((281.0103, -0.0328), (61.4155, -0.0049)),
     orbit_pole=Direction.across(math.radians(7.00497902), math.radians(48.33076593)),
@@ -101,14 +113,13 @@ VENUS = Body.cited(
         ),
         "j2": _VENUS_J2,
         "dynamical_flattening": flattening_of(_VENUS_J2, VENUS_MOMENT),
-        "spin_period": Constant(
-            -243.0226 * DAY, "s", 0.0013 * DAY, _MARGOT_2021, _MARGOT_2021_READ
-        ),
+        "spin_period": Constant(-243.0226 * DAY, "s", 0.0035 * DAY, _VENUS_SPIN, _MARGOT_2021_READ),
         "orbital_period": Constant(
             224.70079922 * DAY, "s", None, "mean sidereal period", _VENUS_YEAR_READ
         ),
         "slow_swing": SWING,
-    },
+    }
+    | prime_meridian(160.20),
     naif=(299, 2),
     # Archinal et al. 2011, Celest. Mech. 109, 101: no rates are given
     pole=FixedPole(math.radians(272.76), math.radians(67.16)),
@@ -158,7 +169,21 @@ MARS_NUMBERS = {
     "flattening": Constant((3396.19 - 3376.20) / 3396.19, "", 4e-5, _MARS_AXES, c.PCK11),
     "spin_period": Constant(360.0 / 350.89198226 * DAY, "s", None, _IAU_2009, c.PCK11),
     "orbital_period": Constant(686.9798 * DAY, "s", None, "mean sidereal period", _MARS_YEAR_READ),
-}
+    "long_axis": Constant(
+        math.atan2(_S22, _C22) / 2, "rad", None, _MARS_ORDER_2, c.MARS_J2.read_in
+    ),
+} | prime_meridian(
+    176.049863,
+    (0.000145, 129.071773),
+    (0.000157, 36.352167),
+    (0.000040, 56.668646),
+    (0.000001, 67.364003),
+    (0.000001, 104.792680),
+    (0.584542, 95.391654),
+    # the angles of IAU 2009 and IAU 2015 differ by this at J2000.0, and by half of it in their
+    # rates until 2050
+    half_width=0.005,
+)
 
 MARS = Body.cited(
     "mars",

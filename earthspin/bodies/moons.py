@@ -10,8 +10,8 @@ import math
 
 from earthspin import constants as c
 from earthspin.bodies.body import Body
+from earthspin.bodies.earth_moon_sun import IAU_2015, prime_meridian
 from earthspin.bodies.giants import JPL, JPL_READ, SATELLITES
-from earthspin.bodies.inner import IAU_2015
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.shapes import flattening_of
 from earthspin.constants import DAY, DAYS_PER_CENTURY, JULIAN_YEAR, Constant, Tabulated
@@ -74,6 +74,12 @@ def _of_phobos() -> dict[str, Constant]:
 #: Phase at J2000.0 (deg) and rate (deg a century) of M1, the node of Phobos.
 _M1 = (169.51, -0.4357640 * DAYS_PER_CENTURY)
 
+#: The half-widths of angle and rate contain the terms of W that are not in its mean rate: two
+#: librations of 1.1 and 1.4 deg, and 12.7 deg per square century.
+_PHOBOS_SPIN = {
+    "spin_period": Constant(360 / 1128.84475928 * DAY, "s", 0.0025, IAU_2015, c.PCK11)
+} | prime_meridian(35.18774440, (1.42421769, 190.72646643), (-1.143, 189.63271560), half_width=3.0)
+
 PHOBOS = Body.cited(
     "phobos",
     _locked(
@@ -83,7 +89,8 @@ PHOBOS = Body.cited(
         _AXES,
         c.PCK11,
     )
-    | _of_phobos(),
+    | _of_phobos()
+    | _PHOBOS_SPIN,
     naif=(401,),
     pole=MovingPole.published((317.68, -0.108), (52.90, -0.061), [(1.79, *_M1)], [(-1.08, *_M1)]),
     reference=f"{JPL}; {_AXES}; pole: {_IAU_2011}",
@@ -102,7 +109,8 @@ TITAN = Body.cited(
         "dynamical_flattening": flattening_of(_TITAN_J2, TITAN_MOMENT),
         # (B - A)/(M a2) = 4 C22
         "triaxiality": Constant(4 * 10.121e-6, "", 4 * 0.20e-6, _HYDROSTATIC, _HYDROSTATIC_READ),
-    },
+    }
+    | prime_meridian(186.5855),
     naif=(606,),
     pole=MovingPole.published((39.4827, 0.0), (83.4279, 0.0)),
     reference=f"{JPL}; {_IESS}; {TITAN_MOMENT.source}; pole: {_IAU_2011}",
@@ -115,11 +123,15 @@ IAPETUS = Body.cited(
         _days(360 / 4.5379572, IAU_2015, c.PCK11),
         JPL,
         "codes in public repositories",
-    ),
+    )
+    | prime_meridian(355.2),
     naif=(608,),
     pole=MovingPole.published((318.16, -3.949), (75.03, -1.143)),
     reference=f"{JPL}; pole: {_IAU_2011}",
 )
+#: Amplitudes of multiples of N7 in W of Triton, deg.
+_TRITON_TERMS = (22.25, 6.73, 2.05, 0.74, 0.28, 0.11, 0.05, 0.02, 0.01)
+
 TRITON = Body.cited(
     "triton",
     _locked(
@@ -128,7 +140,8 @@ TRITON = Body.cited(
         _days(5.876854, IAU_2015, c.PCK11),
         IAU_2015,
         c.PCK11,
-    ),
+    )
+    | prime_meridian(296.53, *((size, 177.85 * (n + 1)) for n, size in enumerate(_TRITON_TERMS))),
     naif=(801,),
     reference=JPL,
 )

@@ -38,8 +38,9 @@ CustomTorque = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 SkyLaw = Callable[[FloatArray, FloatArray], FloatArray]
 
 
-#: Inputs that are changed in the neighbours of a body, in this order.
+#: Inputs that are changed in the neighbours of a body, in this order; the last is the first state.
 FLATTENING, TRIAXIALITY, TIDE, ROUNDING = "flattening", "triaxiality", "tide", "rounding"
+START = "start"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from earthspin.motion.equations import (
     FLATTENING,
     ROUNDING,
+    START,
     TIDE,
     TRIAXIALITY,
     CustomTorque,
@@ -50,8 +51,8 @@ def rigid_bodies(
     unit : float
         Unit of spin, rad/s.
     errors : mapping of str to float
-        Relative half-widths by `FLATTENING`, `TRIAXIALITY`, `TIDE` (errors of positions) and
-        `ROUNDING` (rounding of positions); an input with zero has no neighbour.
+        Relative half-widths by `FLATTENING`, `TRIAXIALITY`, `TIDE` (errors of positions),
+        `ROUNDING` (rounding of positions) and `START`; an input with zero has no neighbour.
     epoch : float
         Start of the motion, s from J2000.0.
     custom_torque : callable or None
@@ -65,7 +66,7 @@ def rigid_bodies(
         Input that is changed in each further column.
     """
     figure = forces.figure
-    names = (FLATTENING, TRIAXIALITY, TIDE, ROUNDING)
+    names = (FLATTENING, TRIAXIALITY, TIDE, ROUNDING, START)
     changed = tuple(name for name in names if errors.get(name, 0.0) > 0.0)
     factor = {
         name: np.array([1.0, *(1 + errors[name] if name == other else 1.0 for other in changed)])
@@ -176,6 +177,25 @@ class State:
     momentum: FloatArray
     attitude: FloatArray
     spin: FloatArray
+
+    def turned_last(self, rotation: FloatArray, spin: float) -> State:
+        """Return the state with another attitude and spin in the last column, the first state.
+
+        Parameters
+        ----------
+        rotation : ndarray, shape (3,)
+            Rotation vector along the axes of the body, rad.
+        spin : float
+            Relative change of the angular velocity.
+        """
+        turned = replace(
+            self, **{name: getattr(self, name).copy() for name in ("momentum", "attitude", "spin")}
+        )
+        ahead = rotations.rotation_about(rotation[:, np.newaxis], np.ones(1))
+        turned.attitude[:, -1:] = rotations.times(self.attitude[:, -1:], ahead)
+        turned.spin[:, -1] *= 1 + spin
+        turned.momentum[:, -1] *= 1 + spin
+        return turned
 
 
 @dataclass(frozen=True)
@@ -389,6 +409,7 @@ def shares_of(
     by_name = dict(zip(changed, series.error[1:], strict=True))
     kernel = np.full_like(zero, np.nan) if np.isnan(tide_error) else by_name.get(TIDE, zero)
     inputs = np.hypot(by_name.get(FLATTENING, zero), by_name.get(TRIAXIALITY, zero))
+    inputs = np.hypot(inputs, by_name.get(START, zero))
     inputs[0] = np.hypot(inputs[0], turn_error)
     method = series.error[0] + by_name.get(ROUNDING, zero)
     shares = {"method": method, "input": inputs, "kernel": kernel}

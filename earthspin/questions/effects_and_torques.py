@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from earthspin import bodies
 from earthspin.bodies import BODIES, SUN, Body, label_of
+from earthspin.bodies.earth_moon_sun import EARTH_ANGLE
 from earthspin.constants import ARCSEC, DAY
 from earthspin.engine import key, part
 from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, one_line
@@ -28,6 +29,7 @@ from earthspin.questions.satellites import common_precession, obliquity_of, sate
 from earthspin.questions.sky import KernelName, Sky, places, sky, start_error
 from earthspin.questions.time_axes import DateSeries, epochs
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
+from earthspin.sky.poles import node_angle
 from earthspin.sky.protocol import Place
 from earthspin.torque.gravity import cross
 from earthspin.units import Plain, Several, Word, vectors
@@ -235,10 +237,45 @@ def precessing_torque(rate: FloatArray) -> Torque:
 def figure_of(body: Body, spin_rate: float) -> DynamicalFigure:
     """Make a `DynamicalFigure`: flattening, spin rate, inverse polar moment, radius of a body."""
     h, radius = body.number("dynamical_flattening"), body.number("radius")
-    meridian, inverse = body.number("meridian"), inverse_polar_moment(body.number("j2"), h)
     return DynamicalFigure(
-        h=h, spin_rate=spin_rate, inverse_polar_moment=inverse, radius=radius, meridian=meridian
+        h=h,
+        spin_rate=spin_rate,
+        inverse_polar_moment=inverse_polar_moment(body.number("j2"), h),
+        radius=radius,
+        meridian=0.0 if body.pole is None else x_axis_angle(body, 0.0, spin_rate),
     )
+
+
+def x_axis_angle(body: Body, day: float, spin_rate: float) -> float:
+    """Angle on a day from the x axis of the ICRF, projected on the equator, to the body's x axis.
+
+    The x axis is that of least moment; without triaxiality it is the prime meridian. If the prime
+    meridian is not known, it is taken to be on the projected x axis at J2000.0.
+
+    Parameters
+    ----------
+    body : Body
+    day : float
+        Days from J2000.0 TDB.
+    spin_rate : float
+        rad/s.
+
+    Returns
+    -------
+    float
+        rad.
+    """
+    pole, angle = body.needed("pole"), 0.0
+    if pole.of_the_iau:
+        angle = EARTH_ANGLE.value
+    elif body.prime_meridian is not None:
+        angle = body.prime_meridian + node_angle(pole.true(day))
+    return angle + x_axis_longitude(body) + spin_rate * (day * DAY)
+
+
+def x_axis_longitude(body: Body) -> float:
+    """East longitude of a body's x axis, rad: that of the axis of least moment, if triaxial."""
+    return body.long_axis if body.number("triaxiality") else 0.0
 
 
 def with_effects(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from earthspin.bodies import EARTH, Body, checks, planets
-from earthspin.bodies.earth_moon_sun import EARTH_LONG_AXIS
+from earthspin.bodies import EARTH, Body, checks, in_a_sentence, planets
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine import Block, Neglected, key, part, public_call
@@ -17,20 +16,26 @@ from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
 from earthspin.motion import effect_sizes, march, solution
 from earthspin.motion.effects import NONRIGID, SECOND_ORDER
-from earthspin.motion.equations import FLATTENING, ROUNDING, TIDE, TRIAXIALITY, Rigid
+from earthspin.motion.equations import FLATTENING, ROUNDING, START, TIDE, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
 from earthspin.motion.solution import COARSEST, KINDS, AttitudeIntegrator, RotationSeries, State
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
 from earthspin.questions import effects_and_torques
-from earthspin.questions.effects_and_torques import Attractors, AxisMotion, CustomTorque, forces_of
+from earthspin.questions.effects_and_torques import (
+    Attractors,
+    AxisMotion,
+    CustomTorque,
+    forces_of,
+    x_axis_longitude,
+)
 from earthspin.questions.satellites import (
     largest_displacements,
     no_satellites,
     node_nutations,
     obliquity_of,
 )
-from earthspin.questions.sky import Sky
+from earthspin.questions.sky import Sky, start_error
 from earthspin.questions.time_axes import SPAN_DOC, Dated, days_of
 from earthspin.sky.elements import ByElements, Elements
 from earthspin.sky.ut1 import earth_rotation
@@ -50,8 +55,10 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     """Attitude and spin of a rigid body, without averaging (source text, I.2, I.4, I.9.34).
 
     The body may have any three moments and any spin, and may be locked or tumble. The motion begins
-    at the first date, with the pole, meridian and spin of the body, or with `start_attitude` and
-    `start_omega`; the angle of the Earth about its axis follows from UT1 at that date. The effects
+    at the first date, with the pole, prime meridian and spin of the body, or with `start_attitude`
+    and `start_omega`; the angle of the Earth about its axis follows from UT1 at that date. The x
+    axis of the body is that of least moment; without triaxiality it is the prime meridian. The
+    uncertainty of the start is part of all errors. The effects
     `second-order` and `triaxiality` are always included; `nonrigid` is not available.
 
     Errors are the largest up to that time.
@@ -206,7 +213,7 @@ class Rotor:
     masses : Masses
     start : State
     turn_error : float
-        95 % half-width of the first angle about the axis, from UT1, rad.
+        95 % half-width of the first attitude of the Earth, from UT1 and pole, rad.
     begin, end : float
         Days from J2000.0 TDB.
     polar_moment : float
@@ -254,18 +261,77 @@ class Rotor:
 
 def turns_as_observed(body: Body) -> bool:
     """Return True for the Earth with its own spin, whose angle about the axis follows from UT1."""
-    spin = body.meridian, body.spin_period
-    return body.needed("pole").of_the_iau and spin == (EARTH.meridian, EARTH.spin_period)
+    return body.needed("pole").of_the_iau and body.spin_period == EARTH.spin_period
 
 
 def _start_note(rotor: Rotor, body: Body) -> dict[str, str]:
     """Attribute of a result which states where the attitude at the first date comes from."""
-    if not turns_as_observed(body):
-        return effects_and_torques.start_note(body)
-    half, source = rotor.turn_error / ARCSEC, earth_rotation(rotor.begin)[2]
+    if turns_as_observed(body):
+        half, source = rotor.turn_error / ARCSEC, earth_rotation(rotor.begin)[2]
+        return {
+            "start": f"pole of the IAU and {source}, within {half:.2g} arcsec about the axis (95 %)"
+        }
+    name, pole = in_a_sentence(body.name), start_error(body)
+    if body.needed("pole").of_the_iau:
+        return {}
+    if body.prime_meridian is None:
+        meridian = "its first angle about the axis is arbitrary"
+    elif body.prime_meridian_uncertainty is None:
+        meridian = "that of its prime meridian is not known"
+    else:
+        half = np.degrees(NORMAL_95 * body.prime_meridian_uncertainty)
+        meridian = f"that of its prime meridian is {half:.2g} deg"
+    size = "is not known" if pole is None else f"is {pole / ARCSEC:.2g} arcsec (95 % half-width)"
     return {
-        "start": f"pole of the IAU and {source}, within {half:.2g} arcsec about the axis (95 %)"
+        "start": f"the uncertainty of the pole of {name} at J2000.0 {size}, {meridian}; the errors "
+        "contain those that are known"
     }
+
+
+#: First word about an x axis that no longitude can be counted from.
+ARBITRARY = "arbitrary"
+
+
+def x_axis_note(body: Body, start_attitude: FloatArray | None) -> str:
+    """Text that states where the x axis of the body points."""
+    if start_attitude is not None:
+        return "as in start_attitude"
+    if body.prime_meridian is None and not body.needed("pole").of_the_iau:
+        return f"{ARBITRARY}: the prime meridian of {in_a_sentence(body.name)} is not known"
+    longitude = np.degrees(x_axis_longitude(body))
+    if not body.number("triaxiality"):
+        return "prime meridian"
+    return f"principal axis of least moment, at {longitude:.2f} deg of east longitude"
+
+
+def _start_errors(body: Body, day: float) -> tuple[FloatArray, float]:
+    """95 % half-widths of the first attitude, as a rotation vector in the body, and of the spin.
+
+    The angle about the axis is uncertain by that of the prime meridian at J2000.0 and by that of
+    the spin period since then.
+
+    Returns
+    -------
+    rotation : ndarray, shape (3,)
+        rad.
+    spin : float
+        Relative half-width.
+    """
+    spin = NORMAL_95 * body.relative_uncertainty.get("spin_period", 0.0)
+    meridian = NORMAL_95 * (body.prime_meridian_uncertainty or 0.0)
+    meridian += spin * abs(float(body.spin_rate) * day * DAY)
+    return np.array([start_error(body) or 0.0, 0.0, min(meridian, np.pi)]), spin
+
+
+def _node_speed(body: Body, day: float) -> float:
+    """Speed along the equator of its node, from which W is counted, without nutation, rad/s."""
+    if body.prime_meridian is None:
+        return 0.0
+    pole = body.needed("pole").without_nutation()
+    before, now, after = (pole.true(day + shift) for shift in (-1.0, 0.0, 1.0))
+    x, y, z = now
+    dx, dy, _ = (after - before) / (2 * DAY)
+    return float(z * (x * dy - y * dx) / (x * x + y * y))
 
 
 @part(loads=("scipy.spatial.transform", "scipy.special"))
@@ -298,6 +364,11 @@ def rotor(
         TIDE: torques.relative_error,
         ROUNDING: torques.rounding,
     }
+    first_rotation, first_spin = np.zeros(3), 0.0
+    if start_attitude is None and not body.needed("pole").of_the_iau:
+        first_rotation, first_spin = _start_errors(body, begin)
+        first_spin = first_spin if start_omega is None else 0.0
+        relative_errors[START] = float(np.linalg.norm(first_rotation)) + first_spin
     rigid, changed = solution.rigid_bodies(
         torques.forces,
         spin_rate,
@@ -307,13 +378,19 @@ def rotor(
     )
     attitude, turn_error = start_attitude, 0.0
     if attitude is None:
-        turned = figure.meridian + spin_rate * epoch
+        turned = effects_and_torques.x_axis_angle(body, begin, spin_rate)
         if turns_as_observed(body):
             meridian, turn_error, _ = earth_rotation(begin)
-            turned = meridian + EARTH_LONG_AXIS
+            turned = meridian + x_axis_longitude(body)
         attitude = solution.upright(body.needed("pole").true(begin), turned)
-    omega = np.array([0.0, 0.0, spin_rate]) if start_omega is None else start_omega
+    omega = np.array([0.0, 0.0, spin_rate])
+    if start_omega is not None:
+        omega = start_omega
+    elif start_attitude is None:
+        omega[2] += _node_speed(body, begin)
     start = solution.start_of(rigid, attitude, omega)
+    if START in changed:
+        start = start.turned_last(first_rotation, first_spin)
     masses = solution.masses(torques.forces, epoch)
     return Rotor(rigid, changed, masses, start, turn_error, begin, end, moment, torques)
 
@@ -420,6 +497,7 @@ def attitudes(
         angular_momentum=(size if rotor.body.unit > 0 else -size) * series.momentum[back],
         **errors,
     ).with_attributes(
+        attitude={"x_axis": x_axis_note(body, start_attitude)},
         no_error=rotor.torques.no_error,
         attitude_error={
             **comment,

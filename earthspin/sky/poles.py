@@ -66,6 +66,18 @@ def spherical(vectors: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     return np.arctan2(y, x) % (2 * np.pi), np.arctan2(z, in_plane), np.hypot(in_plane, z)
 
 
+def node_angle(axis: FloatArray) -> float:
+    """Angle along the equator of an axis from the projected x axis to its ascending node, rad.
+
+    Parameters
+    ----------
+    axis : ndarray, shape (3,)
+        Unit vector in the ICRF; the node is on the equator of the ICRF.
+    """
+    x, y, z = axis
+    return math.atan2(x * z, -y)
+
+
 # --- poles ----------------------------------------------------------------------------------------
 
 #: Smallest angle between an axis and the normal of the orbit for which a longitude is defined, rad.

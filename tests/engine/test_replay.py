@@ -187,7 +187,7 @@ def bodies(draw: st.DrawFn) -> earthspin.Body:
         "spin_period": st.floats(1.0, 1e9) | st.floats(-1e9, -1.0),
         "triaxiality": st.floats(0.0, polar / 2),
         "j3": FINITE,
-        "meridian": FINITE,
+        "long_axis": FINITE,
         "flattening": st.floats(-10.0, 0.99),
         "orbital_period": st.floats(1.0, 1e12),
         "pole": st.tuples(st.floats(-10, 10), st.floats(-1.57, 1.57)),

@@ -9,6 +9,7 @@ from earthspin.bodies import EARTH
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.forces import equatorial_basis
 from earthspin.numerics.arrays import FloatArray
+from earthspin.questions.effects_and_torques import figure_of
 from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.sky import NORTH, UAS, figure, forces
 from tests.reference.attitude import attitude_motion
@@ -17,6 +18,8 @@ from tests.reference.sky import Tide
 
 H, SPIN = EARTH.dynamical_flattening, float(EARTH.spin_rate)
 TRIAXIALITY = EARTH.triaxiality * H / EARTH.j2
+#: Angle of the axis of least moment at J2000.0.
+MERIDIAN = figure_of(EARTH, SPIN).meridian
 
 
 def differences(a: FloatArray, b: FloatArray) -> float:
@@ -57,7 +60,7 @@ class Solvers:
     @cached_property
     def uneven_path(self) -> AxisPath:
         """The triaxial Earth on windows."""
-        body = figure(triaxiality=TRIAXIALITY, meridian=EARTH.meridian)
+        body = figure(triaxiality=TRIAXIALITY, meridian=MERIDIAN)
         return axis_path(forces(self.kernel, body), NORTH, 0.0, (0.0, self.span))
 
     def start(self, path: AxisPath) -> FloatArray:
@@ -83,7 +86,7 @@ class Solvers:
         """Angular momentum and attitude matrices of the triaxial Earth."""
         length = float(np.linalg.norm(self.start(self.uneven_path)))
         start = self.uneven_path.at(self.few[:1])
-        first = Rotation.from_matrix(body_frame(start["figure"][0], EARTH.meridian))
+        first = Rotation.from_matrix(body_frame(start["figure"][0], MERIDIAN))
         momentum, turn = attitude_motion(
             Tide(self.span),
             H,
