@@ -267,11 +267,33 @@ def rotation(
     times: Dates | None = ...,
     effects: Literal["known", "rigid", "all"]
     | Literal[
-        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        "planets",
+        "j3",
+        "j4",
+        "triaxiality",
+        "geodesic",
+        "j2-rate",
+        "second-order",
+        "nonrigid",
+        "harmonics",
+        "tides",
+        "fluid-core",
+        "flattened-perturber",
     ]
     | Sequence[
         Literal[
-            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+            "planets",
+            "j3",
+            "j4",
+            "triaxiality",
+            "geodesic",
+            "j2-rate",
+            "second-order",
+            "nonrigid",
+            "harmonics",
+            "tides",
+            "fluid-core",
+            "flattened-perturber",
         ]
     ]
     | None = ...,

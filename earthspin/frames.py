@@ -18,14 +18,15 @@ import numpy as np
 import xarray as xr
 from astropy.time import Time
 
-from earthspin.bodies import in_a_sentence
+from earthspin.bodies import MOON, in_a_sentence
+from earthspin.bodies.librations import mean_earth_matrix
 from earthspin.constants import DAY, J2000_JD
 from earthspin.dates import date_text, two_parts
 from earthspin.engine import Question, scene_of, si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
-from earthspin.questions.rotation import ARBITRARY, x_axis_note
+from earthspin.questions.first_attitude import ARBITRARY, x_axis_note
 from earthspin.questions.time_axes import epochs
 from earthspin.scenes import load_scene, members_of, run, run_tree, versions_of, warn_of_versions
 from earthspin.secular.derived_angles import NO_EQUINOX, equator_and_equinox, equinox_error
@@ -231,6 +232,20 @@ class _ModelAttribute(coord.Attribute):  # type: ignore[misc]
         return (None, False) if value is None else (Model.of(value), True)
 
 
+#: Axes of the frame `BodyFixed`.
+PRINCIPAL, MEAN_EARTH = "principal", "mean-earth"
+
+
+class _AxesAttribute(coord.Attribute):  # type: ignore[misc]
+    """Frame attribute (astropy) for the name of the axes."""
+
+    def convert_input(self, value: Any) -> tuple[Any, bool]:
+        """Return the name if it is known; refuse any other value."""
+        if value not in (PRINCIPAL, MEAN_EARTH):
+            raise SceneError("axes", value, f"give '{PRINCIPAL}' or '{MEAN_EARTH}'")
+        return value, False
+
+
 class _Computed:
     """Base class of astropy frames with computed axes: rotation matrix, and error of the axes."""
 
@@ -246,14 +261,14 @@ class _Computed:
     @property
     def error(self) -> u.Quantity:
         """95 % half-width of the directions of the axes, arcsec."""
-        return (self._axes()[1] * u.rad).to(u.arcsec)
+        return (self._matrix_and_error()[1] * u.rad).to(u.arcsec)
 
     @property
     def matrix(self) -> FloatArray:
         """Rotation matrix from the ICRS to this frame, shape (..., 3, 3)."""
-        return self._axes()[0]
+        return self._matrix_and_error()[0]
 
-    def _axes(self) -> tuple[FloatArray, FloatArray]:
+    def _matrix_and_error(self) -> tuple[FloatArray, FloatArray]:
         """Rotation matrices from the ICRS at the times of the frame, and errors of axes, rad."""
         if self.model is None:
             raise SceneError("model", None, f"{_give(self._words)}, as in model=answer")
@@ -312,7 +327,7 @@ class EquatorOfDate(_Computed, coord.BaseRADecFrame):  # type: ignore[misc]
 
 
 class BodyFixed(_Computed, coord.BaseCoordinateFrame):  # type: ignore[misc]
-    """Frame of astropy: principal axes of a rotating body, computed by `rotation`.
+    """Frame of astropy: axes of a rotating body, computed by `rotation`.
 
     Vectors are rotated only: a velocity remains the velocity relative to the ICRS.
 
@@ -322,25 +337,41 @@ class BodyFixed(_Computed, coord.BaseCoordinateFrame):  # type: ignore[misc]
         Time of the attitude, not before the start of the answer; J2000.0 by default.
     model : Dataset
         Answer of `rotation`, which is solved at `obstime` itself.
+    axes : str
+        ``"principal"`` axes, that of C last; or, for the Moon, the ``"mean-earth"`` axes of maps
+        and of the IAU, which differ from them by 103.85 arcsec.
 
     Attributes
     ----------
     error : Quantity
         95 % half-width of the attitude, arcsec.
     matrix : ndarray, shape (..., 3, 3)
-        Rotation matrix from the ICRS to the principal axes, that of C last.
+        Rotation matrix from the ICRS to these axes.
 
     Raises
     ------
     SceneError
-        If `model` is no such answer, or if `obstime` is before its start.
+        If `model` is no such answer, if `obstime` is before its start, if the prime meridian of
+        the body is not known, or if mean-Earth axes of another body than the Moon are requested.
     """
 
     default_representation = coord.SphericalRepresentation
     default_differential = coord.SphericalCosLatDifferential
     obstime = _DateAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
     model = _ModelAttribute(default=None)
+    axes = _AxesAttribute(default=PRINCIPAL)
     _words = ("rotation",)
+
+    def _matrix_and_error(self) -> tuple[FloatArray, FloatArray]:
+        """Rotation matrices from the ICRS to the requested axes, and errors of axes, rad."""
+        matrix, error = super()._matrix_and_error()
+        if self.axes == PRINCIPAL:
+            return matrix, error
+        body = self.model.question.body
+        if body.known_as != MOON.name:
+            problem = f"only the Moon has them, not {in_a_sentence(body.name)}"
+            raise SceneError("axes", MEAN_EARTH, problem)
+        return mean_earth_matrix() @ matrix, error
 
 
 for _frame in (EquatorOfDate, BodyFixed):

@@ -22,6 +22,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import checks, kinds, shapes
 from earthspin.bodies.checks import all_of, are_close, is_close, is_same
 from earthspin.bodies.kinds import Magnitude
+from earthspin.bodies.laplace_plane import laplace_plane
 from earthspin.bodies.orbit import Orbit, Satellite, SatelliteList
 from earthspin.errors import ArgumentError, BodyError, EarthspinError, Where, nearest
 from earthspin.html_table import card
@@ -35,6 +36,7 @@ from earthspin.units import Text, is_si
 #: Fields that hold a number, or None if it is not known.
 NumberName = Literal[
     "gm", "radius", "j2", "dynamical_flattening", "triaxiality", "j3", "j4", "j2_rate",
+    "k2", "tidal_delay", "core_moment", "core_flattening", "core_friction",
     "prime_meridian", "prime_meridian_uncertainty", "long_axis", "flattening", "spin_period",
     "pole_uncertainty", "orbital_period",
 ]  # fmt: skip
@@ -71,6 +73,20 @@ class Body(shapes.FromMass):
         Zonal coefficients beyond J2, unnormalised, with the sign of geodesy's J_n.
     j2_rate : float
         Rate of change of `j2`, s-1.
+    harmonics : mapping of str to float
+        Unnormalised Stokes coefficients of degree 3 and higher, by name, such as ``"c31"`` and
+        ``"s31"``; they contain those of `j3` and `j4`, which are then not given.
+    k2 : float
+        Love number of degree 2, for the tides on the body.
+    tidal_delay : float
+        Delay of these tides, s.
+    core_moment : float
+        Polar moment of a fluid core, divided by C of the body.
+    core_flattening : float
+        (C - A)/C of that core.
+    core_friction : float
+        Torque between core and mantle, divided by C and by the difference of their angular
+        velocities, s-1.
     prime_meridian : float or None
         Angle W at J2000.0 TDB, along the equator of date, from its ascending node on the equator of
         the ICRF to the prime meridian, rad; it grows by one turn in each `spin_period`. None if it
@@ -150,6 +166,14 @@ class Body(shapes.FromMass):
     j3: Annotated[Numeric, Magnitude("", "-2.53e-6")] = 0.0
     j4: Annotated[Numeric, Magnitude("", "-1.62e-6")] = 0.0
     j2_rate: Annotated[Numeric, Magnitude("1/s", "-9.5e-19 1/s")] = 0.0
+    harmonics: Annotated[Mapping[str, float], kinds.StokesCoefficients()] = field(
+        default_factory=dict
+    )
+    k2: Annotated[Numeric, Magnitude("", "0.024")] = 0.0
+    tidal_delay: Annotated[Numeric, Magnitude("s", "0.1 d")] = 0.0
+    core_moment: Annotated[Numeric, Magnitude("", "7e-4")] = 0.0
+    core_flattening: Annotated[Numeric, Magnitude("", "2.5e-4")] = 0.0
+    core_friction: Annotated[Numeric, Magnitude("1/s", "1.9e-13 1/s")] = 0.0
     prime_meridian: Annotated[float | None, Magnitude("rad", "329.6 deg")] = None
     prime_meridian_uncertainty: Annotated[float | None, Magnitude("rad", "0.1 deg")] = None
     long_axis: Annotated[float, Magnitude("rad", "75 deg")] = 0.0
@@ -219,6 +243,9 @@ class Body(shapes.FromMass):
         checks.check_numbers(self._fields(), self.UNITS)
         if obliquity is not None:
             object.__setattr__(self, "pole", self._pole_at(obliquity))
+        if self.harmonics and not all_of((self.j3 == 0) & (self.j4 == 0)):
+            allowed = "harmonics contains them, as c30 = -j3 and c40 = -j4; set j3 and j4 to 0"
+            raise BodyError(self.name, "j3, j4", f"{self.j3}, {self.j4}", allowed)
         if self.prime_meridian is not None and self.pole is not None and self.pole.of_the_iau:
             allowed = "the prime meridian of the pole iau2006 follows from UT1; set another pole"
             raise BodyError(self.name, "prime_meridian", self.prime_meridian, allowed)
@@ -262,7 +289,8 @@ class Body(shapes.FromMass):
                     "the plane of its own orbit cannot be its reference plane; use another plane"
                 )
                 raise BodyError(self.name, "orbit.plane", "orbit", allowed)
-            plane = Plane.of(orbit.plane, self.pole, None)
+            plane = laplace_plane(orbit, np.min(self.gm), BODIES.get(orbit.about))
+            plane = plane or Plane.of(orbit.plane or "ecliptic", self.pole, None)
             normal = plane.mean_normal(orbit.i, orbit.node, orbit.node_period)
             object.__setattr__(self, "orbit_pole", normal)
 

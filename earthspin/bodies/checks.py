@@ -83,6 +83,8 @@ _CONDITIONS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
     ("dynamical_flattening", lambda h: h <= 0.5, _THIN_DISC),
     ("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) must be zero or more"),
     ("pole_uncertainty", lambda u: u >= 0, "an uncertainty must be zero or more"),
+    ("prime_meridian_uncertainty", lambda u: u >= 0, "an uncertainty must be zero or more"),
+    ("core_moment", lambda m: (m >= 0) & (m < 0.9), "C of the core over C is 0 to less than 0.9"),
     ("slow_swing", lambda swing: swing >= 0, "a variation must be zero or more"),
 )
 

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import math
+from dataclasses import fields
+
+import numpy as np
 
 from earthspin import constants as c
 from earthspin.bodies.body import Body
+from earthspin.bodies.librations import mean_earth_matrix
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, EPSILON_0, Constant, Tabulated
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.poles import IAU_2006, Direction, MovingPole
 
 # --- prime meridians ------------------------------------------------------------------------------
@@ -118,12 +123,32 @@ _CASSINI = "1.543 to the ecliptic (arXiv:2201.00803) and 5.145 of the orbit"
 _CASSINI_READ = "arXiv:2201.00803; page of the Moon of JPL Horizons"
 #: Observed obliquity of the Moon to its orbit.
 MOON_OBLIQUITY = Constant(6.688, "deg", None, _CASSINI, _CASSINI_READ)
-#: (C - A)/B and (B - A)/C.
-MOON_BETA = Constant(6.310213e-4, "", 3.1e-9, _GRAIL, _GRAIL_READ)
-MOON_GAMMA = Constant(2.277317e-4, "", 4.2e-9, _GRAIL, _GRAIL_READ)
-MOON_J2 = Constant(
-    2.03216e-4, "", 2e-9, _GRAIL + "; rounded", f"2.03214e-4 of DE430: {_DE430_READ}"
-)
+_DE421 = "header of DE421: Folkner, Williams & Boggs 2009, IPN Progress Report 42-178"
+_DE421_READ = "constants.npy of the package de421 2008.1 on PyPI"
+_DE421_AND_GRAIL = f"{_DE421}; uncertainty: difference from {_GRAIL}, {_GRAIL_READ}"
+
+
+def _de421(value: float, unit: str = "", uncertainty: float | None = None) -> Constant:
+    """Number of the model of the Moon in DE421, one set with the states of `librations`."""
+    return Constant(
+        value, unit, uncertainty, _DE421 if uncertainty is None else _DE421_AND_GRAIL, _DE421_READ
+    )
+
+
+#: (C - A)/B and (B - A)/C of the undistorted Moon.
+MOON_BETA = _de421(6.310022025364629e-4, "", 1.9e-8)
+MOON_GAMMA = _de421(2.277305314199142e-4, "", 4.2e-9)
+MOON_J2 = _de421(2.032732576370724e-4, "", 5.7e-8)
+#: Stokes coefficients of degree 3 and 4, unnormalised.
+MOON_FIELD = {
+    "c30": -8.404701525941e-06, "c31": 2.8452435e-05, "s31": 5.9008e-06,
+    "c32": 4.84638724000903e-06, "s32": 1.6841984741476e-06,
+    "c33": 1.674047530039142e-06, "s33": -2.485526e-07,
+    "c40": 9.642286e-06, "c41": -5.692687e-06, "s41": 1.574393e-06,
+    "c42": -1.5862e-06, "s42": -1.517312e-06, "c43": -8.12041e-08, "s43": -8.027907e-07,
+    "c44": -1.273941e-07, "s44": 8.31475e-08,
+}  # fmt: skip
+MOON_HARMONICS = Tabulated("field of the Moon, degrees 3 and 4", _DE421, _DE421_READ)
 
 # moments in units of C: A = B - gamma and 1 - A = beta B
 _B = (1 + MOON_GAMMA.value) / (1 + MOON_BETA.value)
@@ -158,13 +183,22 @@ MOON_NUMBERS = {
     "gm": Constant(4902.800118e9, "m3 s-2", 4.2e4, _MOON_GM, c.GM_HORIZONS),
     "radius": Constant(1738.0e3, "m", None, "reference radius of " + _GRAIL, _DE430_READ),
     "j2": MOON_J2,
-    "dynamical_flattening": Constant(_H, "", 4e-9, "from beta and gamma: " + _GRAIL, _GRAIL_READ),
-    "triaxiality": Constant(
-        MOON_GAMMA.value * MOON_J2.value / _H, "", None, "gamma C/(M R2): " + _GRAIL, _GRAIL_READ
+    "dynamical_flattening": Constant(
+        _H, "", 2e-8, f"from beta and gamma: {_DE421_AND_GRAIL}", _DE421_READ
     ),
+    "triaxiality": Constant(
+        MOON_GAMMA.value * MOON_J2.value / _H, "", None, f"gamma C/(M R2): {_DE421}", _DE421_READ
+    ),
+    "k2": _de421(0.02163368386360741),
+    "tidal_delay": _de421(0.1078586819856588 * DAY, "s"),
+    "core_moment": _de421(0.0007),
+    "core_flattening": _de421(3.797712936914387e-4),
+    "core_friction": _de421(1.493760249305661e-8 / DAY, "s-1"),
     # synchronous rotation
     "spin_period": c.SIDEREAL_MONTH,
     "orbital_period": c.SIDEREAL_MONTH,
+    # root mean square of the difference from DE421, 1950 to 2050, at most 18.3 arcsec
+    "pole_uncertainty": Constant(9.2 * ARCSEC, "rad", None, _DE421, c.COMPUTED),
     # period of the node, 1296000"/6962890.5431" centuries = 6798.383 d
     "cycle": Constant(
         1296000.0 / 6962890.5431 * DAYS_PER_CENTURY * DAY, "s", 0.0, _NODE, "ERFA, eraFaom03"
@@ -182,9 +216,39 @@ def _pole_terms(sizes: dict[int, float]) -> list[tuple[float, float, float]]:
     return [(s, _POLE_TERMS[n][0], _POLE_TERMS[n][1] * DAYS_PER_CENTURY) for n, s in sizes.items()]
 
 
+class PrincipalPole(MovingPole):
+    """Axis of the greatest moment of the Moon, 78.56 arcsec from the pole of the IAU.
+
+    It is fixed in the mean-Earth axes of the IAU, whose third axis is the pole.
+    """
+
+    def mean(self, days: FloatArray) -> FloatArray:
+        """Unit vectors of the axis on given days, shape (n, 3)."""
+        pole = super().mean(days)
+        angle = np.full(days.shape, 38.3213) + days * (13.17635815 - 1.4e-12 * days)
+        for number, size in _MERIDIAN_TERMS.items():
+            phase, rate = _POLE_TERMS[number]
+            angle += size * np.sin(np.radians(phase + rate * days))
+        node = np.stack([-pole[:, 1], pole[:, 0], np.zeros(days.shape)], axis=1)
+        node /= np.linalg.norm(node, axis=1, keepdims=True)
+        w = np.radians(angle)[:, np.newaxis]
+        x_axis = np.cos(w) * node + np.sin(w) * np.cross(pole, node)
+        x, y, z = mean_earth_matrix()[:, 2]
+        return np.asarray(x * x_axis + y * np.cross(pole, x_axis) + z * pole)
+
+
+def with_principal_pole(body: Body) -> Body:
+    """Replace the pole of the Moon by its axis of greatest moment; return others unchanged."""
+    if body.known_as != "moon" or body.pole != MOON.pole:
+        return body
+    pole = PrincipalPole(**{f.name: getattr(body.pole, f.name) for f in fields(MovingPole)})
+    return body.replace(pole=pole, pole_uncertainty=body.pole_uncertainty)
+
+
 MOON = Body.cited(
     "moon",
     MOON_NUMBERS,
+    harmonics=MOON_FIELD,
     naif=(301,),
     pole=MovingPole.published(
         (269.9949, 0.0031),
@@ -201,7 +265,7 @@ MOON = Body.cited(
     ),
     # the orbit precesses about the normal of the ecliptic of J2000.0
     orbit_pole=Direction(math.radians(270.0), math.radians(66.5607)),
-    reference=f"{MOON_NUMBERS['gm'].source}; {_GRAIL}",
+    reference=f"{MOON_NUMBERS['gm'].source}; {_DE421}",
 )  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from itertools import pairwise
@@ -107,6 +108,28 @@ class Uncertainties:
 
     def write(self, value: Mapping[str, float]) -> Plain:
         """Return the relative standard deviations as a table by field name, for scene files."""
+        return dict(value)
+
+
+class StokesCoefficients:
+    """Converter of a table of unnormalised Stokes coefficients by name, such as "c31"."""
+
+    words, hint = 'Stokes coefficients by name, like {"c31": 2.8e-5}', "Mapping[str, float]"
+
+    def read(self, value: object, where: Where) -> dict[str, float]:
+        """Check the names, of degree 3 to 9 and order up to the degree, and the numbers."""
+        if not isinstance(value, Mapping):
+            raise where.error(value, "give a table of one number for each coefficient")
+        for name in value:
+            match = re.fullmatch(r"c([3-9])(\d)|s([3-9])([1-9])", str(name))
+            degree, order = (match[1] or match[3], match[2] or match[4]) if match else (0, 1)
+            if int(order) > int(degree):
+                problem = "names are c30 to s99: degree 3 to 9, and an order up to the degree"
+                raise where.error(name, problem)
+        return {name: quantity(c, "", where.at(name), "2.8e-5") for name, c in value.items()}
+
+    def write(self, value: Mapping[str, float]) -> Plain:
+        """Return the coefficients as a table by name, for scene files."""
         return dict(value)
 
 

@@ -68,10 +68,12 @@ class Orbit:
     node_period, pericentre_period : float or None
         Period of the node, and of the argument of the pericentre, s; negative if retrograde. None:
         constant.
-    plane : str
+    plane : str or None
         Reference plane of the angles: the ``"ecliptic"`` and equinox of J2000.0; the ``"equator"``
         or the ``"orbit"`` of the spinning body at J2000.0, from its equinox (or, without an orbit,
-        from the ascending node of its equator on the equator of the ICRF); or the ``"icrf"``.
+        from the ascending node of its equator on the equator of the ICRF); or the ``"icrf"``. None:
+        for an orbit `about` a built-in planet other than the Earth the Laplace plane of the moon,
+        from its ascending node on the equator of the ICRF; otherwise the ecliptic.
     about : str
         Name of the central body; empty for the spinning body.
     reference : str
@@ -108,7 +110,7 @@ class Orbit:
     epoch: Annotated[float, Epoch()] = 0.0
     node_period: Annotated[float | None, Magnitude("s", "-6793.5 d")] = None
     pericentre_period: Annotated[float | None, Magnitude("s", "2191 d")] = None
-    plane: Annotated[str, Word(PLANES)] = "ecliptic"
+    plane: Annotated[str | None, Word(PLANES)] = None
     about: Annotated[str, Text()] = ""
     reference: Annotated[str, Text()] = ""
     direction_error: Annotated[float | None, Magnitude("rad", "700 arcsec")] = None

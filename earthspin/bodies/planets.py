@@ -153,7 +153,7 @@ LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
 }
 
 
-# --- effects that the rigid-body model neglects ---------------------------------------------------
+# --- effects beyond a rigid body under torques on its bulge ---------------------------------------
 
 #: Days after the start at which the sizes were measured.
 DAYS = (1.0, 10.0, 30.0, 100.0, 365.0, 1000.0, 3650.0, 14000.0)
@@ -169,10 +169,13 @@ class BeyondRigid:
         Largest change of the attitude up to each of `DAYS`, arcsec, by effect.
     source : str
         Source of the sizes.
+    unknown : str
+        Effects whose sizes are not known.
     """
 
     sizes: Mapping[str, tuple[float, ...]]
     source: str
+    unknown: str = ""
 
     def after(self, days: float) -> dict[str, float]:
         """Size of each neglected effect after a number of days from the initial epoch, rad.
@@ -195,14 +198,14 @@ class BeyondRigid:
 BEYOND_RIGID = {
     "moon": BeyondRigid(
         {
-            "lunar field of degree 3": (0.0092, 0.77, 2.1, 15.0, 120.0, 140.0, 200.0, 275.0),
-            "lunar field of degree 4": (3.7e-5, 0.0034, 0.018, 0.17, 1.5, 1.7, 1.8, 1.8),
-            "fluid core": (9.2e-4, 0.074, 0.14, 0.52, 1.6, 4.1, 11.0, 12.0),
-            "tides on the Moon": (3.7e-4, 0.023, 0.054, 0.21, 0.64, 1.2, 3.1, 3.3),
-            "flattening of the Earth": (7e-6, 5e-4, 6e-4, 0.0022, 0.013, 0.025, 0.064, 0.15),
+            "harmonics": (0.0092, 0.77, 2.1, 15.0, 120.0, 140.0, 200.0, 275.0),
+            "fluid-core": (9.2e-4, 0.074, 0.14, 0.52, 1.6, 4.1, 11.0, 12.0),
+            "tides": (3.7e-4, 0.023, 0.054, 0.21, 0.64, 1.2, 3.1, 3.3),
+            "flattened-perturber": (7e-6, 5e-4, 6e-4, 0.0022, 0.013, 0.025, 0.064, 0.15),
         },
         "the model of DE421 (Folkner et al. 2009, IPN Progress Report 42-178), integrated by "
         "DOP853 with and without each effect from its librations at 6 dates: largest differences",
+        unknown="solid inner core, frequency dependence of the tides",
     ),
     "earth": BeyondRigid(
         {

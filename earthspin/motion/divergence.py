@@ -89,7 +89,7 @@ def divergence(
     solver = Solver(body.first(copies=2), masses, True, TOLERANCE)
     solver.begin_with(start.spin)
     q, momentum = start.attitude[:, :1], start.momentum[:, :1]
-    state = np.concatenate([rotations.rotated(q, momentum), q])
+    state = np.concatenate([rotations.rotated(q, momentum), q, start.core[:, :1]])
     rotation = np.zeros((3, 1))
     rotation[direction] = ASIDE
     pair = _neighbour_pair(state, rotation, np.zeros((3, 1)))
@@ -110,19 +110,21 @@ def divergence(
 def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArray) -> FloatArray:
     """Return a state of rotation and a slightly different one, as columns, shape (7, 2).
 
-    The neighbour has a small rotation and a relative change of the angular momentum.
+    The neighbour has a small rotation and a relative change of the angular momentum, and the same
+    core.
     """
     norm = np.sqrt(np.sum(state[:3] ** 2))
     quaternion = rotations.rotation_about(rotation, np.ones(1))
     other_momentum = state[:3] + momentum * (norm if norm else 1.0)
-    other = np.concatenate([other_momentum, rotations.times(quaternion, state[3:])])
+    turned = rotations.times(quaternion, state[3:7])
+    other = np.concatenate([other_momentum, turned, state[7:]])
     return np.concatenate([state, other], axis=1)
 
 
 def _distance(pair: FloatArray) -> tuple[FloatArray, FloatArray, float]:
     """Difference of two states: rotation vector, relative momentum change, and combined norm."""
     state, other = pair[:, :1], pair[:, 1:]
-    quaternion = 2 * rotations.times(other[3:], rotations.conjugate(state[3:]))
+    quaternion = 2 * rotations.times(other[3:7], rotations.conjugate(state[3:7]))
     rotation = quaternion[1:] * np.sign(quaternion[:1])
     norm = np.sqrt(np.sum(state[:3] ** 2))
     momentum = (other[:3] - state[:3]) / (norm if norm else 1.0)

@@ -22,11 +22,29 @@ from earthspin.torque.gravity import cross, dot
 
 
 #: Fields of a body on which effects depend.
-Coefficient = Literal["j2", "j2_rate", "j3", "j4", "triaxiality"]
+Coefficient = Literal[
+    "j2", "j2_rate", "j3", "j4", "triaxiality", "k2", "tidal_delay", "core_moment",
+    "core_flattening", "core_friction", "gm", "spin_period",
+]  # fmt: skip
+
+
+class HasVector(Protocol):
+    """Protocol of a direction in the ICRF."""
+
+    def vector(self) -> FloatArray:
+        """Unit vector of the direction, shape (3,)."""
 
 
 class BodyNumbers(Protocol):
     """Protocol of a body whose numeric properties, such as J3, can be looked up by name."""
+
+    @property
+    def harmonics(self) -> Mapping[str, float]:
+        """Stokes coefficients of degree 3 and higher by name, such as "c31"."""
+
+    @property
+    def orbit_pole(self) -> HasVector | None:
+        """Normal of the orbit of the body."""
 
     def number(self, name: Coefficient) -> float:
         """Return a numeric property of the body, such as "j3", as a float."""
@@ -49,7 +67,13 @@ class Effect:
 
     name: str
     switch_on: Callable[[Forces, BodyNumbers], Forces]
-    coefficient: Coefficient | Literal[""] = ""
+    coefficient: Coefficient | Literal["harmonics", ""] = ""
+
+    def is_idle(self, body: BodyNumbers) -> bool:
+        """Return True if the coefficient of the effect is 0, or not known, for a body."""
+        if self.coefficient == "harmonics":
+            return not body.harmonics
+        return self.coefficient != "" and body.number(self.coefficient) == 0
 
 
 class _Effects(dict[str, Effect]):
@@ -64,12 +88,17 @@ class _Effects(dict[str, Effect]):
         return super().__contains__(name) or bool(plug_in("effects", str(name)) and self[str(name)])
 
 
-#: All effects by name.
+#: Effects on the axes of any body by name.
 EFFECTS = _Effects()
 
 
 def add(effect: Effect) -> Effect:
-    """Register an effect on the axes by its name, so that users can switch it on.
+    """Register an effect on the axes in `EFFECTS`, so that users can switch it on."""
+    return register(EFFECTS, effect)
+
+
+def register(effects: dict[str, Effect], effect: Effect) -> Effect:
+    """Add an effect to a table of effects by its name.
 
     Returns
     -------
@@ -81,7 +110,7 @@ def add(effect: Effect) -> Effect:
     ValueError
         If another effect has this name.
     """
-    if EFFECTS.setdefault(effect.name, effect) is not effect:
+    if effects.setdefault(effect.name, effect) is not effect:
         raise ValueError(f"another effect has the name '{effect.name}'; choose a different one")
     return effect
 

@@ -28,7 +28,7 @@ import numpy as np
 
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.torque.gravity import cross, zonal_law
+from earthspin.torque.gravity import apply, cross, zonal_law
 
 #: Torque divided by C along the body's axes, s-2, shape (m, 3), from times (s), shape (m,),
 #: quaternions (m, 4) and angular velocities along the body's axes, rad/s (m, 3).
@@ -36,11 +36,56 @@ CustomTorque = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 #: Contribution of an effect to l' along the sky's axes, s-1, from figure axis and angular momentum,
 #: each of shape (3, bodies, nodes).
 SkyLaw = Callable[[FloatArray, FloatArray], FloatArray]
-
+#: Contribution of an effect that depends on the full attitude, from matrices from body to sky axes,
+#: shape (3, 3, bodies, nodes), and angular velocities along the body's axes, rad/s, shape (3,
+#: bodies, nodes): a torque per C along the body's axes, s-2, or a change of the products of inertia
+#: per C, shape (6, bodies, nodes), in the order of `earthspin.torque.gravity.tidal_tensor`.
+BodyLaw = Callable[[FloatArray, FloatArray], FloatArray]
 
 #: Inputs that are changed in the neighbours of a body, in this order; the last is the first state.
 FLATTENING, TRIAXIALITY, TIDE, ROUNDING = "flattening", "triaxiality", "tide", "rounding"
 START = "start"
+
+
+@dataclass(frozen=True, kw_only=True)
+class FluidCore:
+    """Fluid core of uniform vorticity, coupled to the mantle by friction and by its flattening.
+
+    Attributes
+    ----------
+    moment : float
+        Polar moment of the core, divided by C of the whole body.
+    flattening : float
+        (C - A)/C of the core.
+    friction : float
+        Torque divided by C and by the difference of the angular velocities, s-1.
+    spin : ndarray, shape (3,), or None
+        Angular velocity of the core along the sky's axes at the start, rad/s; None: as the mantle.
+    """
+
+    moment: float
+    flattening: float
+    friction: float
+    spin: FloatArray | None
+
+    @cached_property
+    def moments(self) -> FloatArray:
+        """Principal moments divided by C of the whole body, shape (3, 1)."""
+        equatorial = self.moment * (1 - self.flattening)
+        return np.array([[equatorial], [equatorial], [self.moment]])
+
+    def torque(self, core: FloatArray, mantle: FloatArray) -> FloatArray:
+        """Torque of the core on the mantle, divided by C, along the body's axes, s-2.
+
+        Parameters
+        ----------
+        core, mantle : ndarray, shape (3, ...)
+            Angular velocities along the body's axes, rad/s.
+        """
+        x, y, z = core
+        bulge = self.moment * self.flattening * z
+        pressure = np.stack([-bulge * y, bulge * x, np.zeros_like(z)])
+        return np.asarray(self.friction * (core - mantle) + pressure)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,6 +110,9 @@ class Rigid:
         Start of the motion, s from J2000.0.
     custom_torque : callable or None
         Custom torque.
+    core : FluidCore or None
+        Fluid core; the moments are those of the whole body, the angular velocity is that of the
+        mantle.
     """
 
     c_minus_a: FloatArray
@@ -76,11 +124,17 @@ class Rigid:
     trend: float = 0.0
     epoch: float = 0.0
     custom_torque: CustomTorque | None = None
+    core: FluidCore | None = None
 
     @cached_property
     def moments(self) -> FloatArray:
         """Ratios A/C, B/C and C/C of the principal moments of each body, shape (3, bodies)."""
         return np.stack([1 - self.c_minus_a, 1 - self.c_minus_b, np.ones_like(self.c_minus_a)])
+
+    @cached_property
+    def mantle_moments(self) -> FloatArray:
+        """Principal moments without those of the core, divided by C, shape (3, bodies)."""
+        return self.moments if self.core is None else self.moments - self.core.moments
 
     @cached_property
     def moment_differences(self) -> FloatArray:
@@ -107,12 +161,13 @@ class Rigid:
 
         Parameters
         ----------
-        state : ndarray, shape (7, t)
-            Angular momentum along the sky's axes, in units of C u, and attitude.
+        state : ndarray, shape (7, t) or (10, t)
+            Angular momentum along the sky's axes, in units of C u, attitude, and angular momentum
+            of the core.
         """
-        return (
-            self.unit / self.moments * rotations.rotated(rotations.conjugate(state[3:]), state[:3])
-        )
+        mantle = state[:3] if self.core is None else state[:3] - state[7:]
+        in_body = rotations.rotated(rotations.conjugate(state[3:7]), mantle)
+        return self.unit / self.mantle_moments * in_body
 
 
 @dataclass(frozen=True)
@@ -132,6 +187,8 @@ class Perturbers:
         zonal harmonics J_n of the body; the others are too far away.
     laws : sequence of callable
         Contributions of effects to the torque.
+    body_torques, inertia_changes : sequence of callable
+        Effects that depend on the full attitude: torques, and changes of the products of inertia.
     """
 
     times: FloatArray
@@ -139,6 +196,8 @@ class Perturbers:
     places: FloatArray
     near: int = 0
     laws: Sequence[SkyLaw] = ()
+    body_torques: Sequence[BodyLaw] = ()
+    inertia_changes: Sequence[BodyLaw] = ()
 
 
 class Equations:
@@ -146,7 +205,8 @@ class Equations:
 
     Several bodies under the same perturbers are integrated together. Arrays of
     unknowns and of rates have the shape (7, bodies * n): the n times of the first body, then those
-    of the next.
+    of the next. A fluid core adds three rows, its angular momentum along the sky's axes; the first
+    rows are then those of the whole body.
 
     Parameters
     ----------
@@ -155,8 +215,8 @@ class Equations:
     masses : Perturbers
     in_space : bool
         True if the angular momentum is along the sky's axes, False if along the body's axes.
-    start : ndarray, shape (7, bodies)
-        Angular momentum and quaternion at the start of the window.
+    start : ndarray, shape (7, bodies) or (10, bodies)
+        Unknowns at the start of the window.
     since : ndarray, shape (n,)
         Times from the start of the window, s.
     """
@@ -166,7 +226,7 @@ class Equations:
     ) -> None:
         self._body, self._masses, self._in_space = body, masses, in_space
         self._count, self._nodes = start.shape[1], times.size
-        self._spin_per_momentum = self._at_nodes(body.unit / body.moments)
+        self._spin_per_momentum = self._at_nodes(body.unit / body.mantle_moments)
         self._moment_differences = self._at_nodes(3 / body.unit * body.moment_differences)
         self._places = self._in_columns(masses.places)
         r2 = np.einsum("ipm,ipm->pm", masses.places, masses.places)
@@ -177,9 +237,11 @@ class Equations:
         near = masses.gm[: masses.near, np.newaxis, np.newaxis]
         places = masses.places[:, : masses.near, np.newaxis]
         self._on_harmonics = zonal_law(zonal, body.radius, near, places) if zonal else None
-        matrix = rotations.matrices(start[3:])
+        matrix = rotations.matrices(start[3:7])
         momentum = _into(matrix, start[:3]) if in_space else start[:3]
-        spin = body.unit / body.moments * momentum
+        if body.core is not None:
+            momentum = momentum - _into(matrix, start[7:])
+        spin = body.unit / body.mantle_moments * momentum
         #: Angular velocity at the start of the window, rad/s, shape (3, bodies), along the same
         #: axes as the angular momentum.
         self.steady = _out_of(matrix, spin) if in_space else spin
@@ -198,30 +260,39 @@ class Equations:
 
     def attitude(self, unknowns: FloatArray) -> FloatArray:
         """Attitude quaternions of all bodies from the unknowns, shape (4, bodies * nodes)."""
-        return np.asarray(np.einsum("abm,bm->am", self._reference, unknowns[3:]))
+        return np.asarray(np.einsum("abm,bm->am", self._reference, unknowns[3:7]))
 
     def unknowns(self, state: FloatArray) -> FloatArray:
         """Unknowns of the equations: angular momentum, and attitude relative to uniform rotation.
 
-        `state`, shape (7, n), holds angular momentum and attitude of one body. They are repeated
-        for all bodies.
+        `state`, shape (7, n) or (10, n), holds angular momentum and attitude of one body, and the
+        angular momentum of its core. They are repeated for all bodies.
 
         This is only valid for the form with the angular momentum along the sky's axes.
         """
-        q = self._in_columns(state[3:])
+        q = self._in_columns(state[3:7])
         p = np.einsum("bam,bm->am", self._reference, q)  # the inverse is the transpose
-        return np.concatenate([self._in_columns(state[:3]), p])
+        return np.concatenate([self._in_columns(state[:3]), p, self._in_columns(state[7:])])
 
     def rates(self, unknowns: FloatArray) -> FloatArray:
         """Time derivatives of the unknowns: angular momentum and relative attitude, s-1.
 
-        The shape is (7, bodies * n), with n values for each body.
+        The shape is (7, bodies * n), with n values for each body, or (10, bodies * n).
         """
         momentum, q = unknowns[:3], self.attitude(unknowns)
         matrix = rotations.matrices(q)
         in_body = _into(matrix, momentum) if self._in_space else momentum
-        spin = self._spin_per_momentum * in_body
-        torque = self._torque(q, matrix, spin)
+        core = self._body.core
+        core_momentum = _into(matrix, unknowns[7:]) if core is not None else np.zeros((3, 1))
+        spin = self._spin_per_momentum * (in_body if core is None else in_body - core_momentum)
+        if self._masses.inertia_changes:
+            change = self._sum_of(self._masses.inertia_changes, matrix, spin)
+            spin = spin - self._spin_per_momentum / self._body.unit * apply(change, spin)
+            torque = self._torque(q, matrix, spin, change)
+        else:
+            torque = self._torque(q, matrix, spin)
+        if self._masses.body_torques:
+            torque += self._sum_of(self._masses.body_torques, matrix, spin) / self._body.unit
         rate = _out_of(matrix, torque) if self._in_space else cross(momentum, spin) + torque
         if self._body.zonal or self._masses.laws:
             in_space = momentum if self._in_space else _out_of(matrix, momentum)
@@ -229,13 +300,30 @@ class Equations:
             rate = rate + (effects_torque if self._in_space else _into(matrix, effects_torque))
         if self._in_space:
             spin_change = _into(self._reference_matrix, _out_of(matrix, spin) - self._steady)
-            quaternion_rate = rotations.vector_times(spin_change, unknowns[3:])
+            quaternion_rate = rotations.vector_times(spin_change, unknowns[3:7])
         else:
             spin_change = _out_of(self._reference_matrix, spin - self._steady)
-            quaternion_rate = rotations.times_vector(unknowns[3:], spin_change)
-        return np.concatenate([rate, 0.5 * quaternion_rate])
+            quaternion_rate = rotations.times_vector(unknowns[3:7], spin_change)
+        if core is None:
+            return np.concatenate([rate, 0.5 * quaternion_rate])
+        unit = self._body.unit
+        on_mantle = core.torque(unit * core_momentum / core.moments, spin) / unit
+        return np.concatenate([rate, 0.5 * quaternion_rate, -_out_of(matrix, on_mantle)])
 
-    def _torque(self, q: FloatArray, matrix: FloatArray, spin: FloatArray) -> FloatArray:
+    def _sum_of(self, laws: Sequence[BodyLaw], matrix: FloatArray, spin: FloatArray) -> FloatArray:
+        """Sum of effects that depend on the full attitude, shape (3 or 6, bodies * nodes)."""
+        shape = (self._count, self._nodes)
+        matrix, spin = matrix.reshape(3, 3, *shape), spin.reshape(3, *shape)
+        total = sum(law(matrix, spin) for law in laws)
+        return np.asarray(total).reshape(-1, self._count * self._nodes)
+
+    def _torque(
+        self,
+        q: FloatArray,
+        matrix: FloatArray,
+        spin: FloatArray,
+        inertia_change: FloatArray | None = None,
+    ) -> FloatArray:
         """Tidal torque on the bulge plus custom torque, in body axes, per C and spin unit, s-1.
 
         The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
@@ -243,6 +331,9 @@ class Equations:
         position = np.einsum("jim,jpm->ipm", matrix, self._places)
         products = position.take((1, 0, 0), 0) * position.take((2, 2, 1), 0)
         torque = self._moment_differences * np.einsum("pm,ipm->im", self._tide, products)
+        if inertia_change is not None:
+            on_change = cross(position, apply(inertia_change[:, np.newaxis], position))
+            torque += 3 / self._body.unit * np.einsum("pm,ipm->im", self._tide, on_change)
         if self._body.custom_torque is not None:
             times = self._in_columns(self._masses.times)
             torque += self._body.custom_torque(times, q.T, spin.T).T / self._body.unit

@@ -12,9 +12,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from earthspin.errors import UndefinedError
+from earthspin.motion.equations import BodyLaw, FluidCore
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.polynomials import Windows
 from earthspin.torque.gravity import apply, cross, quadrupole_torque, tidal_tensor, zonal_law
+from earthspin.torque.harmonics import HarmonicsTorque
 
 #: Positions by name, each of shape (t, 3), m, at times in s from J2000.0.
 Positions = Callable[[FloatArray], Mapping[str, FloatArray]]
@@ -24,6 +26,8 @@ RateLaw = Callable[[FloatArray, FloatArray], FloatArray]
 Places = Mapping[str, FloatArray]
 #: Contribution of an effect to l', from the forces, the windows and the positions at their nodes.
 Torque = Callable[["Forces", Windows, Places], RateLaw]
+#: The same for an effect that depends on the full attitude.
+BodyTorque = Callable[["Forces", Windows, Places], BodyLaw]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,6 +53,8 @@ class DynamicalFigure:
     meridian : float
         Angle at J2000.0 from the x axis, projected on the equator, to the axis of least moment,
         rad.
+    harmonics : HarmonicsTorque or None
+        Harmonics of degree 3 and higher, if switched on.
     """
 
     h: float
@@ -59,6 +65,7 @@ class DynamicalFigure:
     j2_trend: float = 0.0
     triaxiality: float = 0.0
     meridian: float = 0.0
+    harmonics: HarmonicsTorque | None = None
 
     @property
     def tau(self) -> float:
@@ -88,6 +95,14 @@ class Forces:
         an axis in this direction, so second-order effects are switched off.
     sun : str
         Name of the Sun, if it is among the perturbers.
+    primary : str
+        Perturber with the largest tide, which acts on `harmonics` and raises tides; empty without
+        perturbers.
+    primary_bulge : tuple of float and ndarray
+        J2 a2 (m2) and pole (unit vector) of that perturber; J2 a2 is 0 if not known.
+    body_torques, inertia_changes : tuple of callable
+        Effects that depend on the full attitude: torques, and changes of the products of inertia.
+    core : FluidCore or None
     """
 
     figure: DynamicalFigure
@@ -98,6 +113,11 @@ class Forces:
     torques: tuple[Torque, ...] = ()
     mean_pole: Callable[[FloatArray], FloatArray] | None = None
     sun: str = "sun"
+    primary: str = ""
+    primary_bulge: tuple[float, FloatArray] = (0.0, np.zeros(3))
+    body_torques: tuple[BodyTorque, ...] = ()
+    inertia_changes: tuple[BodyTorque, ...] = ()
+    core: FluidCore | None = None
 
     def over(self, windows: Windows) -> tuple[RateLaw, FloatArray]:
         """Return a function for the angular momentum's rate in time windows, and the tidal tensor.

@@ -12,10 +12,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.polynomial import legendre
 
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
-from earthspin.motion.equations import Equations, Perturbers, Rigid, SkyLaw
+from earthspin.motion.equations import BodyLaw, Equations, Perturbers, Rigid, SkyLaw
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows, integrated, rule
@@ -59,12 +60,16 @@ class Masses:
     laws : callable or None
         Function of a window and the positions at its nodes by name, each of shape (3, 1, n), that
         returns the contributions of effects.
+    body_torques, inertia_changes : callable or None
+        The same for effects that depend on the full attitude.
     """
 
     gm: Mapping[str, float]
     positions: Callable[[FloatArray], Mapping[str, FloatArray]]
     near: int = 0
     laws: Callable[[Windows, Mapping[str, FloatArray]], Sequence[SkyLaw]] | None = None
+    body_torques: Callable[[Windows, Mapping[str, FloatArray]], Sequence[BodyLaw]] | None = None
+    inertia_changes: Callable[[Windows, Mapping[str, FloatArray]], Sequence[BodyLaw]] | None = None
 
     def over(self, windows: Windows) -> list[Perturbers]:
         """Make the `Perturbers` of each time window: GM and positions of the masses."""
@@ -77,12 +82,16 @@ class Masses:
         places = places.reshape(3, len(self.gm), *times.shape)
         masses_at_nodes = []
         for w, window_times in enumerate(times):
-            laws: Sequence[SkyLaw] = ()
-            if self.laws is not None:
-                by_name = {name: places[:, m, w : w + 1] for m, name in enumerate(self.gm)}
-                laws = self.laws(Windows(windows.edges[w : w + 2], windows.order), by_name)
+            by_name = {name: places[:, m, w : w + 1] for m, name in enumerate(self.gm)}
+            window = Windows(windows.edges[w : w + 2], windows.order)
+            laws, body_torques, inertia_changes = (
+                () if effects is None else effects(window, by_name)
+                for effects in (self.laws, self.body_torques, self.inertia_changes)
+            )
             place = np.ascontiguousarray(places[:, :, w])
-            masses_at_nodes.append(Perturbers(window_times, gm, place, self.near, laws))
+            masses_at_nodes.append(
+                Perturbers(window_times, gm, place, self.near, laws, body_torques, inertia_changes)
+            )
         return masses_at_nodes
 
 
@@ -94,15 +103,15 @@ class Piece:
     ----------
     edges : ndarray, shape (w + 1,)
         Edges of the windows, s.
-    series : ndarray, shape (7, bodies, w, n + 1)
+    series : ndarray, shape (7, bodies, w, n + 1) or (10, bodies, w, n + 1)
         Legendre series of the unknowns.
     steady : ndarray, shape (3, bodies, w)
         Reference angular velocity of each window, rad/s.
     in_space : bool
         True if angular momentum and reference angular velocity are along the sky's axes, False if
         along the body's axes.
-    end : ndarray, shape (7, bodies)
-        Angular momentum and attitude quaternion at the end.
+    end : ndarray, shape (7, bodies) or (10, bodies)
+        Angular momentum and attitude quaternion at the end, and angular momentum of a core.
     """
 
     edges: FloatArray
@@ -112,25 +121,44 @@ class Piece:
     end: FloatArray
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Angular momentum and attitude quaternion of all bodies at given times, (7, bodies, t)."""
-        bodies = self.series.shape[1]
+        """State of all bodies at given times, (7, bodies, t), or (10, bodies, t) with a core."""
+        count, bodies = self.series.shape[:2]
         windows = Windows(self.edges, self.series.shape[-1])
-        rows = windows.evaluate(self.series.reshape(7 * bodies, len(windows.half), -1), times)
-        unknowns = rows.reshape(7, bodies * times.size)
+        rows = windows.evaluate(self.series.reshape(count * bodies, len(windows.half), -1), times)
+        unknowns = rows.reshape(count, bodies * times.size)
         window = np.clip(np.searchsorted(self.edges, times) - 1, 0, len(windows.half) - 1)
         reference = rotations.rotation_about(
             self.steady[:, :, window].reshape(3, -1), np.tile(times - self.edges[window], bodies)
         )
-        p = unknowns[3:]
+        p = unknowns[3:7]
         q = rotations.times(reference, p) if self.in_space else rotations.times(p, reference)
         q /= np.sqrt(np.sum(q * q, axis=0))
-        return np.concatenate([unknowns[:3], q]).reshape(7, bodies, times.size)
+        return np.concatenate([unknowns[:3], q, unknowns[7:]]).reshape(count, bodies, times.size)
+
+    def spin(self, times: FloatArray) -> FloatArray:
+        """Angular velocity of the first body along its axes, rad/s, from the rate of its attitude.
+
+        The shape is (3, t). This is only valid for the form along the sky's axes.
+        """
+        attitude = self.series[3:7, 0]
+        half = np.diff(self.edges)[:, np.newaxis] / 2
+        p = Windows(self.edges, attitude.shape[-1]).evaluate(attitude, times)
+        rate = Windows(self.edges, attitude.shape[-1] - 1).evaluate(
+            legendre.legder(attitude, axis=-1) / half, times
+        )
+        window = np.clip(np.searchsorted(self.edges, times) - 1, 0, len(half) - 1)
+        steady = self.steady[:, 0, window]
+        reference = rotations.rotation_about(steady, times - self.edges[window])
+        relative_spin = 2 * rotations.times(rate, rotations.conjugate(p)) / np.sum(p * p, axis=0)
+        along_sky = steady + rotations.rotated(reference, relative_spin[1:])
+        q = rotations.times(reference, p) / np.sqrt(np.sum(p * p, axis=0))
+        return rotations.rotated(rotations.conjugate(q), along_sky)
 
     def along_sky(self, times: FloatArray) -> FloatArray:
         """Angular momentum in sky axes and attitude quaternion of the first body, shape (7, t)."""
         state = self.at(times)[:, 0]
         if not self.in_space:
-            state[:3] = rotations.rotated(state[3:], state[:3])
+            state[:3] = rotations.rotated(state[3:7], state[:3])
         return state
 
 
@@ -201,7 +229,7 @@ class Solver:
         ----------
         edges : ndarray, shape (w + 1,)
             s.
-        start : ndarray, shape (7, bodies)
+        start : ndarray, shape (7, bodies) or (10, bodies)
         other : Piece, optional
             Approximate solution, whose first body is the first estimate for the iteration.
 
@@ -210,7 +238,7 @@ class Solver:
         Piece
             Solution over the windows that were solved; there may be none.
         """
-        windows, bodies = Windows(edges, self.order), start.shape[1]
+        windows, (count, bodies) = Windows(edges, self.order), start.shape
         rates: list[FloatArray] = []
         starts: list[FloatArray] = []
         steady: list[FloatArray] = []
@@ -218,7 +246,7 @@ class Solver:
         estimate: FloatArray | None = None
         if other is not None:
             state = other.along_sky(windows.times.ravel())
-            estimate = np.asarray(state.reshape(7, *windows.times.shape))
+            estimate = np.asarray(state.reshape(count, *windows.times.shape))
         for masses, begin, half in zip(
             self.masses.over(windows), edges[:-1], windows.half[:, 0], strict=True
         ):
@@ -234,17 +262,17 @@ class Solver:
             start = self._end(rate, equations, start, half)
         solved = len(rates)
         self._resize(worst, complete=solved == len(windows.half))
-        series = np.zeros((7 * bodies, 0, self.order + 1))
+        series = np.zeros((count * bodies, 0, self.order + 1))
         if solved:
-            rate_rows = np.reshape(rates, (solved, 7 * bodies, -1)).swapaxes(0, 1)
+            rate_rows = np.reshape(rates, (solved, count * bodies, -1)).swapaxes(0, 1)
             series = integrated(
                 windows.coefficients(rate_rows),
                 windows.half[:solved],
-                np.reshape(starts, (solved, 7 * bodies)).T,
+                np.reshape(starts, (solved, count * bodies)).T,
             )
         return Piece(
             edges[: solved + 1],
-            series.reshape(7, bodies, solved, self.order + 1),
+            series.reshape(count, bodies, solved, self.order + 1),
             np.reshape(steady, (solved, 3, bodies)).transpose(1, 2, 0),
             self.in_space,
             start,
@@ -265,7 +293,8 @@ class Solver:
         for _ in range(MOST_ROUNDS):
             rates = equations.rates(unknowns)
             self.evaluations += 1
-            new_unknowns = start_rows + (rates.reshape(-1, self.order) @ weighted).reshape(7, -1)
+            change_of_unknowns = rates.reshape(-1, self.order) @ weighted
+            new_unknowns = start_rows + change_of_unknowns.reshape(start_rows.shape)
             previous, change = change, float(np.max(np.abs(new_unknowns - unknowns)))
             unknowns = new_unknowns
             if not change < _RUNAWAY:
@@ -277,21 +306,22 @@ class Solver:
         else:
             return rates, np.inf
         last = np.sum(np.abs(rates.reshape(-1, self.order) @ gauss.project[:, -2:]), axis=1)
-        last = np.max(last.reshape(7, -1), axis=1)
+        last = np.max(last.reshape(len(start), -1), axis=1)
         size = float(np.max(np.abs(start[:3])))
-        error = max(float(np.max(last[:3])) / size if size else 0.0, float(np.max(last[3:])))
+        error = max(float(np.max(last[:3])) / size if size else 0.0, float(np.max(last[3:7])))
         return rates, error * half / self.order / self.tolerance
 
     def _end(
         self, rates: FloatArray, equations: Equations, start: FloatArray, half: float
     ) -> FloatArray:
-        """Angular momentum and attitude quaternion at the end of a window, shape (7, bodies)."""
-        bodies = start.shape[1]
-        change = rates.reshape(7, bodies, self.order) @ rule(self.order).weights * half
+        """State at the end of a window, shape (7, bodies), or (10, bodies) with a core."""
+        count, bodies = start.shape
+        change = rates.reshape(count, bodies, self.order) @ rule(self.order).weights * half
         end = start + change
         turn = rotations.rotation_about(equations.steady, np.full(bodies, 2 * half))
-        q = rotations.times(turn, end[3:]) if self.in_space else rotations.times(end[3:], turn)
-        return np.concatenate([end[:3], q / np.sqrt(np.sum(q * q, axis=0))])
+        p = end[3:7]
+        q = rotations.times(turn, p) if self.in_space else rotations.times(p, turn)
+        return np.concatenate([end[:3], q / np.sqrt(np.sum(q * q, axis=0)), end[7:]])
 
     def _resize(self, error_ratio: float, *, complete: bool) -> None:
         """Set the length of the next window from the ratio of truncation error to tolerance."""

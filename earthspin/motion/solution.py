@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -23,12 +24,12 @@ from earthspin.motion.equations import (
     TRIAXIALITY,
     CustomTorque,
     Rigid,
-    SkyLaw,
 )
-from earthspin.motion.forces import Forces, equatorial_basis
+from earthspin.motion.forces import BodyTorque, Forces, Torque, equatorial_basis
 from earthspin.motion.march import CONVERGED, FINEST, ORDER, Masses, Piece, Solver
 from earthspin.numerics import polynomials, rotations
 from earthspin.numerics.arrays import FloatArray
+from earthspin.torque.gravity import apply
 
 # --- bodies and their neighbours ------------------------------------------------------------------
 # A neighbour is the same body with one uncertain number changed by its half-width. The difference
@@ -87,6 +88,7 @@ def rigid_bodies(
         trend=figure.j2_trend,
         epoch=epoch,
         custom_torque=custom_torque,
+        core=forces.core,
     )
     return body, changed
 
@@ -94,16 +96,21 @@ def rigid_bodies(
 def masses(forces: Forces, epoch: float = 0.0) -> Masses:
     """Convert `Forces` to the `Masses` of the attitude solver, with times counted from `epoch`."""
 
-    def laws(window: polynomials.Windows, places: Mapping[str, FloatArray]) -> Sequence[SkyLaw]:
-        sky_windows = polynomials.Windows(window.edges + epoch, window.order)
-        return [torque(forces, sky_windows, places) for torque in forces.torques]
+    def laws_of(torques: Sequence[Torque | BodyTorque]) -> Any:
+        def laws(window: polynomials.Windows, places: Mapping[str, FloatArray]) -> list[Any]:
+            sky_windows = polynomials.Windows(window.edges + epoch, window.order)
+            return [torque(forces, sky_windows, places) for torque in torques]
+
+        return laws if torques else None
 
     near = {name: gm for name, gm in forces.gm.items() if name in forces.near}
     return Masses(
         gm=near | dict(forces.gm),
         positions=lambda times: forces.positions(times + epoch),
         near=len(near),
-        laws=laws if forces.torques else None,
+        laws=laws_of(forces.torques),
+        body_torques=laws_of(forces.body_torques),
+        inertia_changes=laws_of(forces.inertia_changes),
     )
 
 
@@ -146,6 +153,8 @@ def upright(axis: FloatArray, angle: float) -> FloatArray:
 
 #: Shortest span that is integrated, s.
 SHORTEST = 1e-6
+#: Span in which tides at the start are taken from the first node, with the speed of the mass, s.
+_INSTANT = 60.0
 #: Convergence of the half windows, as a fraction of the tolerance. Their iteration starts from the
 #: other solution and must become independent of it: with 1e-2, errors were up to three times the
 #: claimed ones.
@@ -172,11 +181,14 @@ class State:
         Unit quaternion (w, x, y, z) from the axes of the body to those of the sky.
     spin : ndarray, shape (3, bodies)
         Angular velocity along the body's axes, rad/s.
+    core : ndarray, shape (0, bodies) or (3, bodies)
+        Angular momentum of a fluid core along the sky's axes, in units of C u.
     """
 
     momentum: FloatArray
     attitude: FloatArray
     spin: FloatArray
+    core: FloatArray
 
     def turned_last(self, rotation: FloatArray, spin: float) -> State:
         """Return the state with another attitude and spin in the last column, the first state.
@@ -210,6 +222,8 @@ class RotationSeries:
         Unit quaternion from the axes of the body to those of the sky.
     omega : ndarray, shape (t, 3)
         Angular velocity along the body's axes, rad/s.
+    core : ndarray, shape (t, 0) or (t, 3)
+        Angular momentum of a fluid core along the sky's axes, in units of C u.
     error : ndarray, shape (causes, 3, t)
         Largest errors up to each time, by `KINDS`: first of the method, then the differences from
         the neighbour in each further column.
@@ -218,15 +232,20 @@ class RotationSeries:
     momentum: FloatArray
     attitude: FloatArray
     omega: FloatArray
+    core: FloatArray
     error: FloatArray
 
 
-def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
+def start_of(
+    body: Rigid, attitude: FloatArray, omega: FloatArray, masses: Masses | None = None
+) -> State:
     """Make the initial state of all bodies, with the same attitude and angular velocity.
 
     Parameters
     ----------
     body : Rigid
+    masses : Masses, optional
+        Masses with the changes of the products of inertia, which are part of the angular momentum.
     attitude : ndarray, shape (4,)
         Quaternion from the body's axes to the sky's; it is normalized.
     omega : ndarray, shape (3,)
@@ -234,7 +253,27 @@ def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
     """
     spin = np.repeat(omega[:, np.newaxis], body.count, axis=1)
     q = np.repeat((attitude / np.linalg.norm(attitude))[:, np.newaxis], body.count, axis=1)
-    return State(momentum=body.moments * spin / body.unit, attitude=q, spin=spin)
+    momentum = body.mantle_moments * spin / body.unit
+    if masses is not None and masses.inertia_changes is not None:
+        momentum = momentum + apply(_first_inertia_change(masses, q, spin), spin) / body.unit
+    if body.core is None:
+        return State(momentum, q, spin, np.zeros((0, body.count)))
+    core_spin = spin
+    if body.core.spin is not None:
+        along_sky = np.repeat(body.core.spin[:, np.newaxis], body.count, axis=1)
+        core_spin = rotations.rotated(rotations.conjugate(q), along_sky)
+    core = body.core.moments * core_spin / body.unit
+    return State(momentum + core, q, spin, rotations.rotated(q, core))
+
+
+def _first_inertia_change(masses: Masses, q: FloatArray, spin: FloatArray) -> FloatArray:
+    """Changes of the products of inertia at the start, divided by C, shape (6, bodies)."""
+    window = polynomials.Windows(np.array([0.0, _INSTANT]), 4)
+    (at_start,) = masses.over(window)
+    matrix = np.repeat(rotations.matrices(q)[..., np.newaxis], window.order, axis=-1)
+    spins = np.repeat(spin[..., np.newaxis], window.order, axis=-1)
+    total = sum(law(matrix, spins) for law in at_start.inertia_changes)
+    return np.asarray(total)[..., 0]
 
 
 class AttitudeIntegrator:
@@ -282,8 +321,10 @@ class AttitudeIntegrator:
         speed = float(np.max(np.sqrt(np.sum(start.spin**2, axis=0))))
         self._rounding = _EPS * speed * self._end
         self._solutions = self._march(
-            np.concatenate([rotations.rotated(start.attitude, start.momentum), start.attitude]),
-            np.concatenate([start.momentum, start.attitude])[:, :1],
+            np.concatenate(
+                [rotations.rotated(start.attitude, start.momentum), start.attitude, start.core]
+            ),
+            np.concatenate([start.momentum, start.attitude, start.core])[:, :1],
         )
         self._solution: tuple[Piece, Piece] | None = None
         self._last_time = 0.0
@@ -335,7 +376,7 @@ class AttitudeIntegrator:
         if times[0] < self._last_time:
             self._restart()
         self._last_time = float(times[-1])
-        states, errors, computed = [], [], 0
+        states, spins, errors, computed = [], [], [], 0
         while computed < times.size:
             if self._solution is None or times[computed] > self._solution[1].edges[-1]:
                 if self._solution is not None:
@@ -350,15 +391,24 @@ class AttitudeIntegrator:
             earlier_error = self._errors_until(edges)[..., last_edge]
             state, error = self._state_and_errors(part_times)
             states.append(state)
+            spins.append(self._spin(part_times, state))
             errors.append(np.maximum(earlier_error, error))
             computed = next_index
         state = np.concatenate(states, axis=1)
         return RotationSeries(
             momentum=state[:3].T,
-            attitude=state[3:].T,
-            omega=self._body.first().spin(state).T,
+            attitude=state[3:7].T,
+            omega=np.concatenate(spins, axis=1).T,
+            core=state[7:].T,
             error=np.concatenate(errors, axis=2),
         )
+
+    def _spin(self, times: FloatArray, state: FloatArray) -> FloatArray:
+        """Angular velocity of the body at given times, rad/s, shape (3, t)."""
+        if self._masses.inertia_changes is None:
+            return self._body.first().spin(state)
+        assert self._solution is not None
+        return self._solution[1].spin(times)
 
     def _errors_until(self, edges: FloatArray) -> FloatArray:
         """Largest errors of attitude, spin and momentum until each edge, (causes, 3, edges)."""
@@ -385,7 +435,11 @@ class AttitudeIntegrator:
 
 
 def shares_of(
-    series: RotationSeries, changed: Sequence[str], tide_error: float, turn_error: float = 0.0
+    series: RotationSeries,
+    changed: Sequence[str],
+    tide_error: float,
+    first_errors: Sequence[float] = (0.0, 0.0, 0.0),
+    direction_errors: FloatArray | float = 0.0,
 ) -> dict[str, FloatArray]:
     """Errors of a rotation due to method, inputs and kernel, and in total, shape (3, t).
 
@@ -396,8 +450,10 @@ def shares_of(
         Input that is changed in each further column.
     tide_error : float
         Relative error of the tides; NaN if it was not measured.
-    turn_error : float
-        Error of the first angle about the axis of spin, rad.
+    first_errors : sequence of float
+        Errors of the first state that stay so in time, by `KINDS`: rad, rad/s, C u.
+    direction_errors : ndarray, shape (3, t)
+        Errors due to the directions of the masses.
 
     Returns
     -------
@@ -408,9 +464,10 @@ def shares_of(
     zero = np.zeros_like(series.error[0])
     by_name = dict(zip(changed, series.error[1:], strict=True))
     kernel = np.full_like(zero, np.nan) if np.isnan(tide_error) else by_name.get(TIDE, zero)
+    kernel = np.hypot(kernel, direction_errors)
     inputs = np.hypot(by_name.get(FLATTENING, zero), by_name.get(TRIAXIALITY, zero))
     inputs = np.hypot(inputs, by_name.get(START, zero))
-    inputs[0] = np.hypot(inputs[0], turn_error)
+    inputs = np.hypot(inputs, np.reshape(first_errors, (3, 1)))
     method = series.error[0] + by_name.get(ROUNDING, zero)
     shares = {"method": method, "input": inputs, "kernel": kernel}
     shares[""] = np.sqrt(shares["method"] ** 2 + inputs**2 + kernel**2)
@@ -436,5 +493,5 @@ def differences(body: Rigid, state: FloatArray, other: FloatArray) -> FloatArray
     """
     spin = body.first().spin(state) - body.first().spin(other)
     momentum = state[:3] - other[:3]
-    angle = rotations.angle_between(state[3:], other[3:])
+    angle = rotations.angle_between(state[3:7], other[3:7])
     return np.stack([angle, np.linalg.norm(spin, axis=0), np.linalg.norm(momentum, axis=0)])

@@ -20,6 +20,7 @@ from earthspin.constants import ARCSEC, DAY
 from earthspin.engine import key, part
 from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, one_line
 from earthspin.mass.figure import inverse_polar_moment
+from earthspin.motion.attitude_effects import ALL_EFFECTS, ATTITUDE_EFFECTS
 from earthspin.motion.effects import EFFECTS, GEODESIC, NONRIGID, PLANETS, RIGID
 from earthspin.motion.forces import DynamicalFigure, Forces, Places, RateLaw, Torque
 from earthspin.numerics.arrays import FloatArray
@@ -40,8 +41,11 @@ ORBIT_SAMPLES = 400
 KNOWN, WITHOUT_INTERIOR = "known", "rigid"
 
 
+@dataclass(frozen=True)
 class EffectNames(Several):
     """Kind of input: names of effects, and words for several: "known", "rigid" or "all"."""
+
+    of: Word
 
     @property
     def hint(self) -> str:
@@ -56,8 +60,9 @@ class EffectNames(Several):
     def read(self, value: object, where: Where) -> tuple[str, ...]:
         """Check a word or a list of effect names, and return a tuple; "all" gives all names."""
         several: dict[str, Any] = dict.fromkeys((KNOWN, WITHOUT_INTERIOR, "all"))
-        words = Several(Word(ChainMap(several, EFFECTS))).read(value, where)
-        names = (tuple(EFFECTS) if word == "all" else (word,) for word in words)
+        effects: Any = self.of.allowed
+        words = Several(Word(ChainMap(several, effects))).read(value, where)
+        names = (tuple(effects) if word == "all" else (word,) for word in words)
         return tuple(dict.fromkeys(chain.from_iterable(names)))
 
 
@@ -130,6 +135,8 @@ class Attractors:
         First and last time for which all positions are available, s from J2000.0 TDB.
     sun : str
         Name of the Sun, if it is among the perturbers.
+    bodies : tuple of Body
+        Perturbers of the question.
     """
 
     body: Body
@@ -138,6 +145,7 @@ class Attractors:
     targets: dict[str, Place]
     limits: tuple[float, float]
     sun: str = SUN.name
+    bodies: tuple[Body, ...] = ()
     _stored: dict[tuple[float, float, int], dict[str, FloatArray]] = field(
         default_factory=dict, repr=False
     )
@@ -162,6 +170,13 @@ class Attractors:
         if missing:
             known |= self.sky.positions(times / DAY, missing)
         return known
+
+    def primary(self) -> Body:
+        """Return the perturber with the largest tide at the start of the integration."""
+        positions = self.positions(list(self.sky.targets), np.array([self.epoch]), keep=False)
+        return max(
+            self.bodies, key=lambda b: self.gm[b.name] / np.linalg.norm(positions[b.name]) ** 3
+        )
 
     def mean_gm_over_r3(self) -> float:
         """Sum over perturbers of GM times the mean 1/r3 over an orbit about J2000.0, s-2.
@@ -195,7 +210,7 @@ def attractors(
     start, end = sky.coverage(targets)
     limits = start * DAY, end * DAY
     name = label_of(SUN.name, perturbers) or SUN.name
-    return Attractors(body, sky, masses, targets, limits, name)
+    return Attractors(body, sky, masses, targets, limits, name, perturbers)
 
 
 def forces_of(attractors: Attractors, effects: Sequence[str], keep: bool = False) -> Forces:
@@ -210,6 +225,13 @@ def forces_of(attractors: Attractors, effects: Sequence[str], keep: bool = False
         sun=attractors.sun,
         mean_pole=lambda times: body.needed("pole").mean(times / DAY),
     )
+    if not ATTITUDE_EFFECTS.keys().isdisjoint(effects):
+        primary = attractors.primary()
+        bulge = 0.0, np.zeros(3)
+        if primary.j2 is not None and primary.pole is not None:
+            j2_a2 = primary.number("j2") * primary.number("radius") ** 2
+            bulge = j2_a2, primary.pole.mean(np.zeros(1))[0]
+        forces = replace(forces, primary=primary.name, primary_bulge=bulge)
     forces = with_effects(forces, body, effects)
     turn = common_precession(body, attractors.mean_gm_over_r3()) if body.satellites else None
     if turn is not None:
@@ -280,8 +302,8 @@ def x_axis_longitude(body: Body) -> float:
 
 def with_effects(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
     """Add the effects with the given names to the forces, and return the new forces."""
-    chosen = [EFFECTS[name] for name in effects]
-    for effect in EFFECTS.values():
+    chosen = [ALL_EFFECTS[name] for name in effects]
+    for effect in ALL_EFFECTS.values():
         if effect in chosen:
             forces = effect.switch_on(forces, body)
     return forces
@@ -302,8 +324,8 @@ def start_note(body: Body) -> dict[str, str]:
 
 def inactive_effects_note(body: Body, effects: Sequence[str]) -> dict[str, str]:
     """Attribute of a result that lists effects which do nothing because a coefficient is 0."""
-    fields = {name: EFFECTS[name].coefficient for name in effects}
-    idle = {name: field for name, field in fields.items() if field and body.number(field) == 0}
+    acting = {name: ALL_EFFECTS[name] for name in effects}
+    idle = {name: effect.coefficient for name, effect in acting.items() if effect.is_idle(body)}
     owner = bodies.in_a_sentence(body.name)
     words = ", ".join(f"{name} ({field} of {owner} is 0)" for name, field in idle.items())
     return {"effects_that_do_nothing": words} if idle else {}
@@ -323,8 +345,7 @@ def switched_off(
 
     An effect does not act if its coefficient is zero or its perturbers are not there.
     """
-    fields = {name: effect.coefficient for name, effect in EFFECTS.items()}
-    idle = {name for name, field in fields.items() if field and body.number(field) == 0}
+    idle = {name for name, effect in EFFECTS.items() if effect.is_idle(body)}
     if body.known_as not in BODIES and all_by_elements(body, perturbers):
         idle.add(PLANETS.name)  # the body is not in the solar system
     if label_of(SUN.name, perturbers) is None:

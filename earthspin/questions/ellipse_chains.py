@@ -6,7 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from earthspin.bodies import Body, checks, in_a_sentence, label_of, moons
+import numpy as np
+
+from earthspin.bodies import BODIES, Body, checks, in_a_sentence, label_of, moons
+from earthspin.bodies.laplace_plane import laplace_plane
 from earthspin.errors import SceneError, UndefinedError, nearest
 from earthspin.sky.elements import Ellipse, Plane
 from earthspin.torque.cassini import locked_turns
@@ -118,6 +121,9 @@ def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
     refuse_overlap(member, centre, a)
     node = 0.0 if orbit.node_period is None else 2 * math.pi / orbit.node_period
     turn = 0.0 if orbit.pericentre_period is None else 2 * math.pi / orbit.pericentre_period
+    plane = laplace_plane(
+        orbit, float(np.min(member.gm)), centre if centre.known_as in BODIES else None
+    )
     return Ellipse(
         a=a,
         e=orbit.e,
@@ -129,7 +135,7 @@ def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
         motion=motion - node - turn,
         node_rate=node,
         pericentre_rate=turn,
-        plane=Plane.of(orbit.plane, body.pole, body.orbit_pole),
+        plane=plane or Plane.of(orbit.plane or "ecliptic", body.pole, body.orbit_pole),
         direction_error=orbit.direction_error or 0.0,
         direction_drift=orbit.direction_drift or 0.0,
         distance_error=orbit.distance_error or 0.0,

@@ -2,50 +2,62 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from earthspin.bodies import EARTH, Body, checks, in_a_sentence, planets
-from earthspin.constants import ARCSEC, DAY, NORMAL_95
+from earthspin.bodies import BODIES, Body, checks, planets
+from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine import Block, Neglected, key, part, public_call
 from earthspin.engine.variables import Variable, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
 from earthspin.motion import effect_sizes, march, solution
+from earthspin.motion.attitude_effects import (
+    ALL_EFFECTS,
+    ATTITUDE_EFFECTS,
+    FLATTENED_PERTURBER,
+    FLUID_CORE,
+    TIDES,
+)
 from earthspin.motion.effects import NONRIGID, SECOND_ORDER
 from earthspin.motion.equations import FLATTENING, ROUNDING, START, TIDE, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
 from earthspin.motion.solution import COARSEST, KINDS, AttitudeIntegrator, RotationSeries, State
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
-from earthspin.questions import effects_and_torques
+from earthspin.questions import effects_and_torques, first_attitude
 from earthspin.questions.effects_and_torques import (
     Attractors,
     AxisMotion,
     CustomTorque,
+    EffectNames,
     forces_of,
-    x_axis_longitude,
 )
+from earthspin.questions.first_attitude import FirstState, first_state
+from earthspin.questions.moon_start import with_core
 from earthspin.questions.satellites import (
     largest_displacements,
     no_satellites,
     node_nutations,
     obliquity_of,
 )
-from earthspin.questions.sky import Sky, start_error
+from earthspin.questions.sky import Sky
 from earthspin.questions.time_axes import SPAN_DOC, Dated, days_of
 from earthspin.sky.elements import ByElements, Elements
-from earthspin.sky.ut1 import earth_rotation
-from earthspin.units import Number, Numbers
+from earthspin.sky.sources import SourceName
+from earthspin.units import Number, Numbers, Word
 
 if TYPE_CHECKING:
     from earthspin.motion.divergence import Divergence
 
 #: Largest difference from 1 of the length of a unit quaternion.
 _LENGTH = 1e-6
+#: Largest relative difference of the periods of spin and orbit in synchronous rotation.
+_SYNCHRONOUS = 1e-3
 #: Time to follow a body through one turn, s (measured: 2.6e-3 to 5e-3), and most turns that are
 #: followed at once: about an hour.
 SECONDS_PER_TURN, MOST_TURNS = 4e-3, 1e6
@@ -76,6 +88,9 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     span: Span = key(("2000-01-01T12:00:00", "2000-02-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
+    effects: Annotated[tuple[str, ...], EffectNames(Word(ALL_EFFECTS))] = key(
+        "known", doc=effects_and_torques.EFFECTS_DOC
+    )
     start_attitude: Annotated[FloatArray, Numbers("", "1", (4,))] | None = key(
         None, doc="quaternion (w, x, y, z), principal axes (C last) to ICRF, at the first date"
     )
@@ -100,6 +115,17 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         pole = () if self.start_attitude is not None else ("pole",)
         spin = () if self.start_omega is not None else ("spin_period",)
         return (*self.needs, *pole, *spin)
+
+    def rigid_effects(self) -> tuple[str, ...]:
+        """Names of the effects on a rigid body, with those on its full attitude that are known."""
+        in_body = known_attitude_effects(self.body, self.perturbers)
+        rigid = (name for name in in_body if name not in (TIDES.name, FLUID_CORE.name))
+        return (*super().rigid_effects(), *rigid)
+
+    def known_effects(self) -> tuple[str, ...]:
+        """Names of the effects that can be computed, with those of tides and of a fluid core."""
+        in_body = known_attitude_effects(self.body, self.perturbers)
+        return (*super().rigid_effects(), *in_body)
 
     def check_spin(self) -> None:
         """Refuse a spin so fast that the body would break up."""
@@ -136,6 +162,8 @@ class PerturberTorques:
     forces : Forces
     relative_error : float
         Relative half-width of the pull from the errors of the positions; NaN if not measured.
+    direction_error : float
+        Half-width of the direction of the perturber with the largest tide, rad.
     rounding : float
         The same from the rounding of positions that follow from elements, without a kernel.
     no_error : str
@@ -144,8 +172,20 @@ class PerturberTorques:
 
     forces: Forces
     relative_error: float = 0.0
+    direction_error: float = 0.0
     rounding: float = 0.0
     no_error: str = ""
+
+
+def known_attitude_effects(body: Body, perturbers: tuple[Body, ...]) -> tuple[str, ...]:
+    """Names of the effects on the full attitude that are known for a body and its perturbers.
+
+    The flattening of a perturber acts on built-in bodies that are lighter than the perturber.
+    """
+    idle = {name for name, effect in ATTITUDE_EFFECTS.items() if effect.is_idle(body)}
+    if body.known_as not in BODIES or not any(p.j2 and p.gm > body.gm for p in perturbers):
+        idle.add(FLATTENED_PERTURBER.name)
+    return tuple(name for name in ATTITUDE_EFFECTS if perturbers and name not in idle)
 
 
 def no_perturbers(perturbers: tuple[Body, ...]) -> str | None:
@@ -191,13 +231,19 @@ def torques(
         if not any(place.is_mean for place in places):
             return PerturberTorques(forces, rounding=rounding)
     positions = attractors.sky.positions(np.array(days[:1]))
-    relative_errors = []
+    relative_errors, directions = [], []
     for name, place in attractors.sky.targets.items():
         angle, distance_error = attractors.sky.error(place, days)
         distance = float(np.linalg.norm(positions[name]))
         relative_errors.append(solution.relative_tide_error(distance, distance_error, angle))
-    relative_error = float(np.max(relative_errors))  # NaN if one is
-    return PerturberTorques(forces, relative_error, rounding, attractors.sky.no_error)
+        directions.append((attractors.gm[name] / distance**3, angle))
+    return PerturberTorques(
+        forces,
+        relative_error=float(np.max(relative_errors)),  # NaN if one is
+        direction_error=max(directions)[1],
+        rounding=rounding,
+        no_error=attractors.sky.no_error,
+    )
 
 
 @dataclass(frozen=True)
@@ -212,8 +258,8 @@ class Rotor:
         Changed input of each copy.
     masses : Masses
     start : State
-    turn_error : float
-        95 % half-width of the first attitude of the Earth, from UT1 and pole, rad.
+    first : FirstState
+        Attitude and angular velocity at the first date, and their errors.
     begin, end : float
         Days from J2000.0 TDB.
     polar_moment : float
@@ -225,7 +271,7 @@ class Rotor:
     changed: tuple[str, ...]
     masses: march.Masses
     start: State
-    turn_error: float
+    first: FirstState
     begin: float
     end: float
     polar_moment: float
@@ -259,81 +305,6 @@ class Rotor:
         return np.asarray(np.round((days - self.begin) * DAY, 6))
 
 
-def turns_as_observed(body: Body) -> bool:
-    """Return True for the Earth with its own spin, whose angle about the axis follows from UT1."""
-    return body.needed("pole").of_the_iau and body.spin_period == EARTH.spin_period
-
-
-def _start_note(rotor: Rotor, body: Body) -> dict[str, str]:
-    """Attribute of a result which states where the attitude at the first date comes from."""
-    if turns_as_observed(body):
-        half, source = rotor.turn_error / ARCSEC, earth_rotation(rotor.begin)[2]
-        return {
-            "start": f"pole of the IAU and {source}, within {half:.2g} arcsec about the axis (95 %)"
-        }
-    name, pole = in_a_sentence(body.name), start_error(body)
-    if body.needed("pole").of_the_iau:
-        return {}
-    if body.prime_meridian is None:
-        meridian = "its first angle about the axis is arbitrary"
-    elif body.prime_meridian_uncertainty is None:
-        meridian = "that of its prime meridian is not known"
-    else:
-        half = np.degrees(NORMAL_95 * body.prime_meridian_uncertainty)
-        meridian = f"that of its prime meridian is {half:.2g} deg"
-    size = "is not known" if pole is None else f"is {pole / ARCSEC:.2g} arcsec (95 % half-width)"
-    return {
-        "start": f"the uncertainty of the pole of {name} at J2000.0 {size}, {meridian}; the errors "
-        "contain those that are known"
-    }
-
-
-#: First word about an x axis that no longitude can be counted from.
-ARBITRARY = "arbitrary"
-
-
-def x_axis_note(body: Body, start_attitude: FloatArray | None) -> str:
-    """Text that states where the x axis of the body points."""
-    if start_attitude is not None:
-        return "as in start_attitude"
-    if body.prime_meridian is None and not body.needed("pole").of_the_iau:
-        return f"{ARBITRARY}: the prime meridian of {in_a_sentence(body.name)} is not known"
-    longitude = np.degrees(x_axis_longitude(body))
-    if not body.number("triaxiality"):
-        return "prime meridian"
-    return f"principal axis of least moment, at {longitude:.2f} deg of east longitude"
-
-
-def _start_errors(body: Body, day: float) -> tuple[FloatArray, float]:
-    """95 % half-widths of the first attitude, as a rotation vector in the body, and of the spin.
-
-    The angle about the axis is uncertain by that of the prime meridian at J2000.0 and by that of
-    the spin period since then.
-
-    Returns
-    -------
-    rotation : ndarray, shape (3,)
-        rad.
-    spin : float
-        Relative half-width.
-    """
-    spin = NORMAL_95 * body.relative_uncertainty.get("spin_period", 0.0)
-    meridian = NORMAL_95 * (body.prime_meridian_uncertainty or 0.0)
-    meridian += spin * abs(float(body.spin_rate) * day * DAY)
-    return np.array([start_error(body) or 0.0, 0.0, min(meridian, np.pi)]), spin
-
-
-def _node_speed(body: Body, day: float) -> float:
-    """Speed along the equator of its node, from which W is counted, without nutation, rad/s."""
-    if body.prime_meridian is None:
-        return 0.0
-    pole = body.needed("pole").without_nutation()
-    before, now, after = (pole.true(day + shift) for shift in (-1.0, 0.0, 1.0))
-    x, y, z = now
-    dx, dy, _ = (after - before) / (2 * DAY)
-    return float(z * (x * dy - y * dx) / (x * x + y * y))
-
-
 @part(loads=("scipy.spatial.transform", "scipy.special"))
 def rotor(
     body: Body,
@@ -342,6 +313,8 @@ def rotor(
     start_attitude: FloatArray | None,
     start_omega: FloatArray | None,
     torque: CustomTorque | None,
+    ephemeris: str,
+    source: SourceName,
     torques: PerturberTorques | None = None,
 ) -> Rotor:
     """Build the rotating body with its initial state and torques, ready for integration.
@@ -364,35 +337,18 @@ def rotor(
         TIDE: torques.relative_error,
         ROUNDING: torques.rounding,
     }
-    first_rotation, first_spin = np.zeros(3), 0.0
-    if start_attitude is None and not body.needed("pole").of_the_iau:
-        first_rotation, first_spin = _start_errors(body, begin)
-        first_spin = first_spin if start_omega is None else 0.0
-        relative_errors[START] = float(np.linalg.norm(first_rotation)) + first_spin
-    rigid, changed = solution.rigid_bodies(
-        torques.forces,
-        spin_rate,
-        relative_errors,
-        epoch,
-        None if torque is None else torque.over(moment),
-    )
-    attitude, turn_error = start_attitude, 0.0
-    if attitude is None:
-        turned = effects_and_torques.x_axis_angle(body, begin, spin_rate)
-        if turns_as_observed(body):
-            meridian, turn_error, _ = earth_rotation(begin)
-            turned = meridian + x_axis_longitude(body)
-        attitude = solution.upright(body.needed("pole").true(begin), turned)
-    omega = np.array([0.0, 0.0, spin_rate])
-    if start_omega is not None:
-        omega = start_omega
-    elif start_attitude is None:
-        omega[2] += _node_speed(body, begin)
-    start = solution.start_of(rigid, attitude, omega)
+    first = first_state(body, begin, start_attitude, start_omega, ephemeris, source)
+    if first.libration is not None:  # its half-width contains those of the moments
+        relative_errors |= {FLATTENING: 0.0, TRIAXIALITY: 0.0}
+    relative_errors[START] = float(np.linalg.norm(first.rotation_error)) + first.spin_error
+    forces = with_core(torques.forces, first.libration)
+    own_torque = None if torque is None else torque.over(moment)
+    rigid, changed = solution.rigid_bodies(forces, spin_rate, relative_errors, epoch, own_torque)
+    masses = solution.masses(forces, epoch)
+    start = solution.start_of(rigid, first.attitude, first.omega, masses)
     if START in changed:
-        start = start.turned_last(first_rotation, first_spin)
-    masses = solution.masses(torques.forces, epoch)
-    return Rotor(rigid, changed, masses, start, turn_error, begin, end, moment, torques)
+        start = start.turned_last(first.rotation_error, first.spin_error)
+    return Rotor(rigid, changed, masses, start, first, begin, end, moment, torques)
 
 
 @part
@@ -419,6 +375,24 @@ def _errors(units: str, name: str, quantity: str) -> Any:
     endings = {f"_{cause}": f"share of {name}_error from {w}" for cause, w in _CAUSES.items()}
     endings = {"": f"95 % half-width of {quantity}, largest so far", **endings}
     return Variable(units, endings=endings, along=("time",))
+
+
+def _direction_errors(rotor: Rotor, body: Body, seconds: FloatArray) -> FloatArray | float:
+    """Half-widths due to the direction of the perturber, by `KINDS`, shape (3, t).
+
+    A body in synchronous rotation librates about the direction of its planet, with the free period
+    of its longitude. If that direction is off by an angle, the attitude departs from the true one
+    by up to twice this angle.
+    """
+    period, spin = body.orbital_period, abs(rotor.body.unit)
+    if period is None or abs(spin * period / math.tau - 1) > _SYNCHRONOUS:
+        return 0.0
+    frequency = spin * math.sqrt(3 * max(0.0, float(rotor.body.moment_differences[2, 0])))
+    phase = frequency * seconds
+    angle = rotor.torques.direction_error
+    away = angle * (1 - np.cos(np.minimum(phase, np.pi)))
+    speed = angle * frequency * np.sin(np.minimum(phase, np.pi / 2))
+    return np.stack([away, speed, speed / spin])
 
 
 class Attitudes(Dated, along=("time", "component")):
@@ -483,8 +457,11 @@ def attitudes(
     series = _followed(motion, rotor, seconds, begin)
     back = np.argsort(order, kind="stable")
     size = rotor.polar_moment * abs(rotor.body.unit)
-    tide_error, turn_error = rotor.torques.relative_error, rotor.turn_error
-    shares = solution.shares_of(series, rotor.changed, tide_error, turn_error)
+    turn, spin, momentum = rotor.first.turn_errors
+    first_errors = turn, spin, momentum / abs(rotor.body.unit)
+    tide_error = rotor.torques.relative_error
+    direction_errors = _direction_errors(rotor, body, seconds)
+    shares = solution.shares_of(series, rotor.changed, tide_error, first_errors, direction_errors)
     errors = {
         f"{name}_error": [factor * shares[cause][kind][back] for cause in ("", *_CAUSES)]
         for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True))
@@ -497,14 +474,14 @@ def attitudes(
         angular_momentum=(size if rotor.body.unit > 0 else -size) * series.momentum[back],
         **errors,
     ).with_attributes(
-        attitude={"x_axis": x_axis_note(body, start_attitude)},
+        attitude={"x_axis": first_attitude.x_axis_note(body, start_attitude)},
         no_error=rotor.torques.no_error,
         attitude_error={
             **comment,
             "method": f"Gauss windows of {motion.order} nodes, in two forms",
             # the number that a whole series takes is not known from one block of it
             **({"evaluations": motion.evaluations} if block is None else {}),
-            **({} if start_attitude is not None else _start_note(rotor, body)),
+            **({} if start_attitude is not None else first_attitude.start_note(body, rotor.first)),
             **effects_and_torques.inactive_effects_note(body, effects),
         },
         omega_error=comment,
@@ -624,6 +601,8 @@ def neglected(
     sizes = {name: change for name, change in changes.items() if change}
     off = effects_and_torques.switched_off(body, perturbers, _acting(effects))
     unknown = [name for name in off if name not in changes]
+    in_body = known_attitude_effects(body, perturbers)
+    off_in_body = [name for name in in_body if name not in effects]
     sources = ["effects that are off: to first order, about a steady rotation"] if sizes else []
     if node_drifts:
         sizes |= node_drifts
@@ -631,11 +610,14 @@ def neglected(
     known = planets.BEYOND_RIGID.get(body.known_as) if body.is_as_named else None
     defaults = {perturber.name for perturber in planets.default_perturbers(body)}
     if known is None or not defaults <= {perturber.known_as for perturber in perturbers}:
-        unknown.insert(0, _BEYOND)
+        unknown = [_BEYOND, *unknown, *off_in_body]
     else:
         begin, end = epochs.span()
-        sizes |= known.after(end - begin)
+        beyond = known.after(end - begin)
+        acting = ATTITUDE_EFFECTS.keys() - {*off_in_body}
+        sizes |= {name: size for name, size in beyond.items() if name not in acting}
         sources.append(known.source)
+        unknown += [known.unknown] if known.unknown else []
     what = "largest change of the attitude that the model leaves out"
     return Neglected(sizes, "arcsec", what, "; ".join(sources), unknown=", ".join(unknown))
 

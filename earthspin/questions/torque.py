@@ -9,6 +9,7 @@ import numpy as np
 
 from earthspin._lazy import xr
 from earthspin.bodies import Body, Numeric, in_a_sentence
+from earthspin.bodies.earth_moon_sun import with_principal_pole
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine import Block, Neglected, key, part, public_call
 from earthspin.engine.variables import labels, measured, number, variable_of
@@ -108,7 +109,8 @@ def torques(
     """Compute declination, distance and torque of each perturber at every time."""
     now = days_of(epochs, block, "series.zarr", (body, *perturbers))
     names = list(sky.targets)
-    radec = sky.radec(body, now, true=equator == "true", nutation=nutation)
+    principal = with_principal_pole(body)
+    radec = sky.radec(principal, now, true=equator == "true", nutation=nutation)
     pole_error = start_error(body)
     errors = {}
     for name in names:

@@ -373,15 +373,11 @@ def test_no_share_for_a_kernel_where_elements_place_everything() -> None:
     assert float(found.attitude_error_method[-1]) > 0
 
 
-def test_the_moon_of_de421_is_within_its_error_and_what_is_neglected() -> None:
-    """From the librations of DE421 at J2000.0: 0.3" after 10 d and 92" after 360 d."""
+def test_the_moon_is_within_its_error_from_a_given_start() -> None:
+    """From the librations of DE421 at J2000.0, without the spin of the core: 0.05" after 360 d."""
     days = (1.0, 3.0, 10.0, 30.0, 90.0, 180.0, 360.0)
     apart, error, neglected = moon(2451545.0, days)
     assert np.all(apart <= error + neglected)
-    # measured: 1.2 to 4
-    assert np.all(neglected < 10 * apart)
-    # the error of the rigid model alone does not contain the difference, and does not claim to
-    assert np.all(apart > error)
 
 
 def every_body_that_rotates() -> list[dict[str, object]]:
