@@ -20,6 +20,7 @@ VERBS = {
     "neglected": "measure how far the response of the interior moves the axis of the Earth",
     "orbits": "make the tables of orbits over ten million years from a kernel (de440)",
     "librations": "make the table of states of the Moon from DE421's librations; folder of de421",
+    "moon": "measure how far the rotation of the Moon is from DE421; folder of de421",
     "forecast": "measure the skill of the forecast of the pole, which the package ships",
     "free-wobble": "measure how often the intervals of the free wobble contain the truth",
     "pole-offsets": "measure predictions of the celestial pole offsets",

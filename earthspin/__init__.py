@@ -48,6 +48,7 @@ _lazy.FUNCTIONS |= dict.fromkeys(
 _lazy.METHODS |= {
     "plot": "earthspin.views.rendering",
     "to_iers_table": "earthspin.questions.forecast",
+    "to_pck": "earthspin.frames",
 }
 
 #: Without `open`, so that ``from earthspin import *`` leaves that of Python alone.

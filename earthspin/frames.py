@@ -20,9 +20,10 @@ from astropy.time import Time
 
 from earthspin.bodies import MOON, in_a_sentence
 from earthspin.bodies.librations import mean_earth_matrix
-from earthspin.constants import DAY, J2000_JD
+from earthspin.constants import ARCSEC, DAY, J2000_JD
 from earthspin.dates import date_text, two_parts
 from earthspin.engine import Question, scene_of, si
+from earthspin.engine.atomic_writes import replacing
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
@@ -30,15 +31,24 @@ from earthspin.questions.first_attitude import ARBITRARY, x_axis_note
 from earthspin.questions.time_axes import epochs
 from earthspin.scenes import load_scene, members_of, run, run_tree, versions_of, warn_of_versions
 from earthspin.secular.derived_angles import NO_EQUINOX, equator_and_equinox, equinox_error
+from earthspin.sky import binary_pck
+from earthspin.sky.binary_pck import chebyshev_series, euler_angles
 from earthspin.units import in_order
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from scipy.spatial.transform import Rotation
+
+    from earthspin.engine.accessor import Answer
 
 #: Resolution of the times of an answer, d.
 MICROSECOND = 1e-6 / DAY
 
-__all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
+#: Largest last term of the series in a PCK, rad.
+_PCK_TRUNCATION = 1e-4 * ARCSEC
+
+__all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations", "to_pck"]
 
 
 def _give(words: tuple[str, ...]) -> str:
@@ -103,10 +113,15 @@ class Model:
         return f"<answer to '{self.question.word}'>"
 
     @property
+    def span(self) -> tuple[float, float]:
+        """First and last date of the result, days from J2000.0 TDB."""
+        keys = self.question.keys()
+        return epochs(keys["span"], keys["step"], keys["times"]).span()
+
+    @property
     def first(self) -> float:
         """First date of the result (of a rotation, the initial date), days from J2000.0 TDB."""
-        keys = self.question.keys()
-        return float(epochs(keys["span"], keys["step"], keys["times"]).span()[0])
+        return float(self.span[0])
 
     def at(self, times: Any) -> Question:
         """Build a question with the inputs of the result, and with new times."""
@@ -409,6 +424,76 @@ class SkyfieldFrame:
     def error_at(self, t: Any) -> u.Quantity:
         """95 % half-width of the directions of the axes at the times of a Skyfield Time, arcsec."""
         return (_at(self.model, t, Where("t"))[1] * u.rad).to(u.arcsec)
+
+
+#: Length of a window of a binary PCK, of one turn of the body: 4 d for the Moon.
+_PCK_WINDOW = 4 / 27.32
+#: First class ID of frames in binary PCK files, to which the NAIF code of the body is added.
+PCK_FRAMES = 1_900_000
+
+
+def to_pck(answer: Answer, path: str | Path, frame_id: int | None = None) -> int:
+    """Write the attitudes of an answer of `rotation` as a binary PCK of SPICE, of type 2.
+
+    The question is solved again at the nodes of Chebyshev series over the span of the answer. The
+    axes are the principal axes of the body.
+
+    Parameters
+    ----------
+    answer : Answer
+        Accessor of the answer, of which this is a method.
+    path : str or Path
+        File to write, usually with the suffix ``.bpc``.
+    frame_id : int, optional
+        Class ID of the frame; by default 1900000 plus the NAIF code of the body.
+
+    Returns
+    -------
+    int
+        Class ID of the frame, for a frame kernel or the variables ``FRAME_...`` of a reader.
+
+    Raises
+    ------
+    SceneError
+        If this is no answer of `rotation`, if it has one date only, or if the body has no NAIF code
+        and no `frame_id` is given.
+    UndefinedError
+        If the pole is so near that of the ICRF that its right ascension changes too fast.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> moon = earthspin.rotation("2026-01-01", "2026-01-09", "1 d", body="moon")
+    >>> moon.earthspin.to_pck("moon.bpc")  # doctest: +SKIP
+    1900301
+    """
+    model = Model.of(answer.dataset)
+    model.check(("rotation",))
+    body, span = model.question.body, model.span  # type: ignore[attr-defined]
+    if frame_id is None:
+        if not body.naif:
+            raise SceneError("frame_id", None, f"{body.name} has no NAIF code; give a number")
+        frame_id = PCK_FRAMES + body.naif[0]
+    if not span[1] > span[0]:
+        raise SceneError("span", date_text(span[0], "us"), "give an answer for more than one date")
+    turn = 2 * np.pi / float(np.max(np.linalg.norm(answer.dataset.omega.values, axis=-1))) / DAY
+    count = max(1, int(np.ceil((span[1] - span[0]) / (_PCK_WINDOW * turn))))
+
+    def angles(seconds: FloatArray) -> FloatArray:
+        solved = run(model.at(_tdb(np.array([span[0], *(seconds / DAY)]))))
+        return euler_angles(solved.attitude.values[1:])
+
+    start, stop = span[0] * DAY, span[1] * DAY
+    series = chebyshev_series(angles, start, stop, count)
+    truncation = float(np.abs(series[..., -1]).max())
+    if truncation > _PCK_TRUNCATION:
+        raise UndefinedError(
+            f"a PCK cannot hold this motion of {in_a_sentence(body.name)}: the last terms of its "
+            f"Euler angles are {truncation / ARCSEC:.2g} arcsec"
+        )
+    with replacing(path) as draft, draft.open("wb") as file:
+        binary_pck.write(file, series, start, stop, frame_id, f"{body.name} by earthspin")
+    return frame_id
 
 
 def rotations(answer: xr.Dataset) -> Rotation:
