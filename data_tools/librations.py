@@ -6,7 +6,7 @@ Every 1826.25 d: Euler angles of the principal axes and the angular velocity of 
 Chebyshev series of the librations, and the angular velocity of the fluid core. DE421 gives the spin
 of the core at one date only, 1969-06-28 (OMGCX, OMGCY, OMGCZ of its header, along the axes of the
 mantle). From there it is integrated along the librations in both directions, by the equations of
-`earthspin.motion.equations.FluidCore` in steps of a day (Runge-Kutta of order 4).
+`earthspin.motion.equations.LiquidCore` in steps of a day (Runge-Kutta of order 4).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from scipy.spatial.transform import Rotation
 
 from earthspin.bodies.librations import SOURCE, TABLE
 from earthspin.constants import J2000_JD
-from earthspin.motion.equations import FluidCore
+from earthspin.motion.equations import LiquidCore
 from earthspin.numerics.arrays import FloatArray
 
 #: Files of the package, with SHA-256.
@@ -74,7 +74,7 @@ class Librations:
 def core_spins(librations: Librations, jd: FloatArray) -> FloatArray:
     """Angular velocities of the core along the ICRF at dates, rad/d, shape (t, 3)."""
     header = librations.constants
-    core = FluidCore(
+    core = LiquidCore(
         moment=header["IFAC"], flattening=header["COBLAT"], friction=header["KVC"], spin=None
     )
     moments = core.moments[:, 0]
@@ -93,7 +93,7 @@ def core_spins(librations: Librations, jd: FloatArray) -> FloatArray:
 
 
 def _followed(
-    librations: Librations, core: FluidCore, momentum: FloatArray, begin: float, end: float
+    librations: Librations, core: LiquidCore, momentum: FloatArray, begin: float, end: float
 ) -> FloatArray:
     """Angular momentum of the core along the sky at another date, by RK4 in steps of a day."""
     steps = max(1, round(abs(end - begin)))

@@ -13,7 +13,7 @@ and J = J2 R2 + (1/2) sum (m/M) a_i2 b_i over the moons inside its orbit, where 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
@@ -21,15 +21,13 @@ from earthspin.bodies.orbit import Orbit
 from earthspin.sky.elements import Plane
 from earthspin.sky.poles import angle, fixed_equator
 
-if TYPE_CHECKING:
-    from earthspin.bodies.body import Body
-
 _NORTH = np.array([0.0, 0.0, 1.0])
 
 
-def laplace_plane(orbit: Orbit, gm: float, planet: Body | None) -> Plane | None:
+def laplace_plane(orbit: Orbit, gm: float, planet: Any) -> Plane | None:
     """Laplace plane of a moon with a given GM (m3 s-2); None if it is not the reference plane.
 
+    `planet` is the central `Body`, or None if it is no built-in body.
     That is so if the orbit has a plane of its own, or if its centre is the Earth, whose Moon has
     the ecliptic, or no planet with a known orbit. Longitudes count from the ascending node of the
     plane on the equator of the ICRF.

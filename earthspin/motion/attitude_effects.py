@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from earthspin.motion.effects import EFFECTS, BodyNumbers, Effect, register
-from earthspin.motion.equations import BodyLaw, FluidCore
+from earthspin.motion.equations import BodyLaw, LiquidCore
 from earthspin.motion.forces import BodyTorque, Forces, Places
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows
@@ -122,7 +122,7 @@ def _add_core(forces: Forces, body: BodyNumbers) -> Forces:
     moment = body.number("core_moment")
     if not moment:
         return forces
-    core = FluidCore(
+    core = LiquidCore(
         moment=moment,
         flattening=body.number("core_flattening"),
         friction=body.number("core_friction"),

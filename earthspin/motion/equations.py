@@ -48,7 +48,7 @@ START = "start"
 
 
 @dataclass(frozen=True, kw_only=True)
-class FluidCore:
+class LiquidCore:
     """Fluid core of uniform vorticity, coupled to the mantle by friction and by its flattening.
 
     Attributes
@@ -110,7 +110,7 @@ class Rigid:
         Start of the motion, s from J2000.0.
     custom_torque : callable or None
         Custom torque.
-    core : FluidCore or None
+    core : LiquidCore or None
         Fluid core; the moments are those of the whole body, the angular velocity is that of the
         mantle.
     """
@@ -124,7 +124,7 @@ class Rigid:
     trend: float = 0.0
     epoch: float = 0.0
     custom_torque: CustomTorque | None = None
-    core: FluidCore | None = None
+    core: LiquidCore | None = None
 
     @cached_property
     def moments(self) -> FloatArray:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from earthspin.errors import UndefinedError
-from earthspin.motion.equations import BodyLaw, FluidCore
+from earthspin.motion.equations import BodyLaw, LiquidCore
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.polynomials import Windows
 from earthspin.torque.gravity import apply, cross, quadrupole_torque, tidal_tensor, zonal_law
@@ -102,7 +102,7 @@ class Forces:
         J2 a2 (m2) and pole (unit vector) of that perturber; J2 a2 is 0 if not known.
     body_torques, inertia_changes : tuple of callable
         Effects that depend on the full attitude: torques, and changes of the products of inertia.
-    core : FluidCore or None
+    core : LiquidCore or None
     """
 
     figure: DynamicalFigure
@@ -117,7 +117,7 @@ class Forces:
     primary_bulge: tuple[float, FloatArray] = (0.0, np.zeros(3))
     body_torques: tuple[BodyTorque, ...] = ()
     inertia_changes: tuple[BodyTorque, ...] = ()
-    core: FluidCore | None = None
+    core: LiquidCore | None = None
 
     def over(self, windows: Windows) -> tuple[RateLaw, FloatArray]:
         """Return a function for the angular momentum's rate in time windows, and the tidal tensor.
