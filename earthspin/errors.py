@@ -441,10 +441,11 @@ def checked(
 
     `hint` makes the advice for an unknown argument, from its name and the allowed names.
     """
-    signature, name = inspect.signature(function), function.__name__
+    signature = inspect.signature(function)
+    name = function.__qualname__.removesuffix(".__init__").rpartition(".")[2]
 
     def problem(error: TypeError, args: tuple[Any, ...], keywords: Mapping[str, Any]) -> str:
-        parameters = [p for p in signature.parameters.values() if p.name != "cls"]
+        parameters = [p for p in signature.parameters.values() if p.name not in ("cls", "self")]
         args = args[len(signature.parameters) - len(parameters) :]
         free = [p.name for p in parameters if p.kind is p.POSITIONAL_OR_KEYWORD]
         named = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY and p.name not in keywords]
@@ -457,7 +458,8 @@ def checked(
             pairs = zip(named, args[len(free) :], strict=False)
             words = [*map(_shown, args[: len(free)]), *(f"{n}={_shown(v)}" for n, v in pairs)]
             return f"{error}; write {name}({', '.join(words)})"
-        return f"{error}; write {_example(function)}"
+        example = _example(function)
+        return f"{error}; {f'write {example}' if example else hint('', named)}"
 
     @functools.wraps(function)
     def call(*args: _P.args, **keywords: _P.kwargs) -> _T:

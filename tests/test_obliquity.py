@@ -1,6 +1,7 @@
 """A body at an obliquity: the angle, the equinox that stays, and what is refused."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 import earthspin
 from earthspin import EARTH, MARS, Body, BodyError, Orbit
 from earthspin.bodies import SATURN, URANUS
+from earthspin.errors import Where
 
 
 @settings(deadline=None, max_examples=40)
@@ -90,3 +92,53 @@ def test_without_an_orbit_there_is_no_obliquity() -> None:
         Body(name="bare", gm=1e14, obliquity="40 deg")
     with pytest.raises(BodyError, match="set one of"):
         Body(name="bare", gm=1e14, pole=(0.0, 0.0), obliquity="40 deg")
+
+
+PLANET: dict[str, Any] = {
+    "name": "planet", "gm": 4e14, "radius": 6.4e6, "spin_period": "20 h", "obliquity": "33 deg",
+    "j2": 1e-3, "dynamical_flattening": 3e-3,
+}  # fmt: skip
+
+
+def test_an_obliquity_that_was_given_stays_on_another_orbit() -> None:
+    flat, steep = (Orbit(a="1 au", i=i, about="star") for i in ("5 deg", "60 deg"))
+    moved = Body(**PLANET, orbit=flat).replace(orbit=steep)
+    assert moved == Body(**PLANET, orbit=steep)
+    normal, axis = moved.orbit_pole.vector(), moved.pole.vector()
+    assert math.degrees(math.acos(normal @ axis)) == pytest.approx(33.0, abs=1e-12, rel=0)
+    stored = Body.read(Body(**PLANET, orbit=flat).write(), Where("body"))
+    assert stored.replace(orbit=steep) == moved
+
+
+def test_a_normal_that_was_given_stays_and_a_derived_one_follows() -> None:
+    normal = (1.0, 1.2)
+    orbits = [Orbit(a="1 au", i=i, about="star") for i in ("5 deg", "60 deg")]
+    given = Body(**PLANET, orbit=orbits[0], orbit_pole=normal)
+    assert given.replace(orbit=orbits[1]).orbit_pole == normal
+    derived = EARTH.replace(pole=(0.1, 1.0), orbit=orbits[0])
+    ecliptic = EARTH.pole.orbit_normal(None)
+    for body, angle in ((derived, 5.0), (derived.replace(orbit=orbits[1]), 60.0)):
+        lean = math.degrees(math.acos(body.orbit_pole.vector() @ ecliptic))
+        assert lean == pytest.approx(angle, abs=1e-9, rel=0)
+
+
+def test_moments_make_a_body() -> None:
+    moments = (8.0e36, 8.01e36, 8.04e36)
+    figure = {k: v for k, v in PLANET.items() if k not in ("j2", "dynamical_flattening")}
+    body = Body(**figure, moments=moments, orbit=Orbit(a="1 au", i="5 deg", about="star"))
+    assert np.allclose(body.moments, moments, rtol=1e-14, atol=0)
+    assert body == Body(**PLANET, orbit=body.orbit).replace(moments=moments)
+    assert Body.read(body.write(), Where("body")) == body
+    with pytest.raises(BodyError, match="moments already give j2"):
+        Body(**figure, moments=moments, j2=1e-3)
+
+
+def test_an_unknown_element_of_an_orbit_is_refused() -> None:
+    for keyword, words in (("EC", "allowed: .*e, epoch, i"), ("nod", "did you mean 'node'")):
+        with pytest.raises(earthspin.ArgumentError, match=words):
+            Orbit(a="1 au", **{keyword: 0.1})
+
+
+def test_whole_turns_are_no_inclination() -> None:
+    with pytest.raises(earthspin.SceneError, match="0 to 180 deg"):
+        Orbit(a="1 au", i="400 deg")

@@ -8,9 +8,8 @@ are in other files of this package, with the source and uncertainty of every num
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import InitVar, dataclass, field, fields
-from dataclasses import replace as _replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import InitVar, dataclass, field, fields, replace
 from functools import reduce
 from operator import and_
 from typing import Annotated, Any, ClassVar, Literal, overload
@@ -24,12 +23,13 @@ from earthspin.bodies.checks import all_of, are_close, is_close, is_same
 from earthspin.bodies.kinds import Magnitude
 from earthspin.bodies.laplace_plane import laplace_plane
 from earthspin.bodies.orbit import Orbit, Satellite, SatelliteList
-from earthspin.errors import ArgumentError, BodyError, EarthspinError, Where, nearest
+from earthspin.errors import ApartError, ArgumentError, BodyError, EarthspinError, Where, nearest
 from earthspin.html_table import card
 from earthspin.interior.layers import LayeredBody
 from earthspin.numerics.arrays import Numeric
+from earthspin.sky import poles
 from earthspin.sky.elements import Plane
-from earthspin.sky.poles import Direction, FixedPole, PoleInText, PoleModel, pole_of
+from earthspin.sky.poles import Direction, FixedPole, MovingPole, PoleModel, TiltedPole
 from earthspin.sky.sources import describe_position, read_position
 from earthspin.units import Text, is_si
 
@@ -48,7 +48,7 @@ _ONE_AXIS = "the pole already gives it; set one of pole and obliquity"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Body(shapes.FromMass):
+class Body(checks.Record, shapes.FromMass):
     """A body that spins, exerts a torque, or both.
 
     Numbers carry their units as text or Quantities (``"5 h"``); plain ones are SI and radians.
@@ -135,9 +135,12 @@ class Body(shapes.FromMass):
     reference : str
         Source of the numbers.
     obliquity : float
-        Given instead of `pole`, and stored as `pole`: angle from the orbit normal to the pole, rad,
-        0 to pi. The direction of the equinox does not change; for a new body it is the node of the
-        orbit on the equator of the ICRF.
+        Given instead of `pole`: angle from the orbit normal to the pole, rad, 0 to pi, which stays
+        if the orbit is replaced. The direction of the equinox does not change; for a new body it is
+        the node of the orbit on the equator of the ICRF.
+    moments : sequence of float
+        Given instead of `j2`, `dynamical_flattening` and `triaxiality`: three principal moments, kg
+        m2, the polar one last.
 
     Raises
     ------
@@ -179,9 +182,9 @@ class Body(shapes.FromMass):
     long_axis: Annotated[float, Magnitude("rad", "75 deg")] = 0.0
     flattening: Annotated[Numeric | None, Magnitude("", "3.35e-3", "(a - c)/a")] = None
     spin_period: Annotated[Numeric | None, Magnitude("s", "23.93 h")] = None
-    pole: Annotated[PoleModel | None, PoleInText()] = None
+    pole: Annotated[PoleModel | None, kinds.PoleInText()] = None
     pole_uncertainty: Annotated[float | None, Magnitude("rad", "0.5 arcsec")] = None
-    orbit_pole: Annotated[Direction | None, PoleInText()] = None
+    orbit_pole: Annotated[Direction | None, kinds.PoleInText()] = None
     orbital_period: Annotated[float | None, Magnitude("s", "365.25 d")] = None
     cycle: Annotated[float, Magnitude("s", "4333 d")] = c.JUPITER_ORBITAL_PERIOD.value
     # from the scatter of averages about epochs every 1500 d in DE440 (docs/accuracy.md)
@@ -196,6 +199,7 @@ class Body(shapes.FromMass):
     satellites: Annotated[tuple[Satellite, ...], SatelliteList()] = ()
     reference: Annotated[str, Text()] = ""
     obliquity: InitVar[Any] = None
+    moments: InitVar[Any] = None
 
     words: ClassVar[str] = 'a Body, a name like "mars", or a table of numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"
@@ -212,7 +216,7 @@ class Body(shapes.FromMass):
         """Refuse positional arguments, and keyword arguments that are not fields of a body."""
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
-        for key in fields.keys() - cls.KINDS.keys() - {"obliquity"}:
+        for key in fields.keys() - cls.KINDS.keys() - {"obliquity", "moments"}:
             use = f"use Body(...).replace({key}=...)" if key in _CONVERTERS else ""
             problem = _ADVICE.get(key) or use or nearest(key, cls.KINDS)
             raise BodyError(str(fields.get("name", "")), key, fields[key], problem)
@@ -220,29 +224,32 @@ class Body(shapes.FromMass):
             raise ArgumentError(f"Body() {missing}")
         return super().__new__(cls)
 
-    def __post_init__(self, obliquity: Any) -> None:
+    def __post_init__(self, obliquity: Any, moments: Any) -> None:
         if obliquity is not None:
             if self.pole is not None:
                 raise BodyError(self.name, "obliquity", obliquity, _ONE_AXIS)
-            object.__setattr__(self, "pole", FixedPole(0.0, math.pi / 2))
+            self._set(pole=TiltedPole.at(self._checked_obliquity(obliquity)))
         self._read_units()
+        if not isinstance(moments, property):  # the property of this name counts as the default
+            three = _CONVERTERS["moments"].read(moments, Where("moments"))
+            others = {name: getattr(self, name) for name in _FIGURE if getattr(self, name)}
+            self._set(**self._figure({"moments": three} | others))
         checks.check_kinds(self._fields(), self.UNITS)
-        for name, read in (("pole", pole_of), ("orbit_pole", Direction.of)):
+        for name, read in (("pole", poles.pole_of), ("orbit_pole", Direction.of)):
             value = getattr(self, name)
-            if value is not None:
-                object.__setattr__(self, name, checks.as_direction(self.name, name, value, read))
+            if value is not None and not isinstance(value, Direction):
+                self._set(**{name: checks.as_direction(self.name, name, value, read)})
         if self.position is not None:
             where = Where(f"{self.name}.position")
-            object.__setattr__(self, "position", read_position(self.position, where))
+            self._set(position=read_position(self.position, where))
         where = Where(f"{self.name}.satellites")
-        object.__setattr__(
-            self, "satellites", self.KINDS["satellites"].read(self.satellites, where)
-        )
+        self._set(satellites=self.KINDS["satellites"].read(self.satellites, where))
         if self.orbit is not None:
             self._read_orbit(self.orbit)
         checks.check_numbers(self._fields(), self.UNITS)
-        if obliquity is not None:
-            object.__setattr__(self, "pole", self._pole_at(obliquity))
+        checks.check_labels(self.name, self.arrays)
+        if isinstance(self.pole, TiltedPole):
+            self._set(pole=self._pole_at(self.pole))
         if self.harmonics and not all_of((self.j3 == 0) & (self.j4 == 0)):
             allowed = "harmonics contains them, as c30 = -j3 and c40 = -j4; set j3 and j4 to 0"
             raise BodyError(self.name, "j3, j4", f"{self.j3}, {self.j4}", allowed)
@@ -250,20 +257,28 @@ class Body(shapes.FromMass):
             allowed = "the prime meridian of the pole iau2006 follows from UT1; set another pole"
             raise BodyError(self.name, "prime_meridian", self.prime_meridian, allowed)
 
-    def _pole_at(self, value: object) -> PoleModel:
-        """Spin axis, fixed in space, with another obliquity but the same equinox direction."""
-        angle = _CONVERTERS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
-        if hasattr(angle, "dims") or np.ndim(angle) or not 0 <= angle <= math.pi:
+    def _set(self, **values: Any) -> None:
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    def _checked_obliquity(self, value: object) -> Numeric:
+        """Read an obliquity: a number, or an array with named dimensions."""
+        angle = kinds.OBLIQUITY.read(value, Where(f"{self.name}.obliquity"))
+        one = hasattr(angle, "dims") or not np.ndim(angle)
+        if not one or not all_of((angle >= 0) & (angle <= math.pi)):
             allowed = "from 0 to 180 deg; plain numbers are radians, so write '40 deg'"
             raise BodyError(self.name, "obliquity", value, f"give one angle {allowed}")
+        return angle
+
+    def _pole_at(self, pole: TiltedPole) -> PoleModel:
+        """Spin axis, fixed in space, with its obliquity to the orbit and its equinox."""
         if self.orbit_pole is None:
             allowed = "it is measured from the normal of the orbit: set orbit or orbit_pole"
-            raise BodyError(self.name, "obliquity", value, allowed)
+            raise BodyError(self.name, "obliquity", pole.obliquity, allowed)
         if self.orbit is not None and self.orbit.plane == "equator":
             allowed = "the orbit is given on the equator, which follows from it; choose a plane"
             raise BodyError(self.name, "orbit.plane", "equator", allowed)
-        _, leaning, normal = self.needed("pole").orbit_axes(self.orbit_pole)
-        return FixedPole.along(math.cos(angle) * normal + math.sin(angle) * leaning)
+        return TiltedPole.at(pole.obliquity, pole.equinox_of, self.orbit_pole)
 
     def _fields(self) -> dict[str, Any]:
         return {f.name: getattr(self, f.name) for f in fields(self)}
@@ -274,13 +289,12 @@ class Body(shapes.FromMass):
             value = getattr(self, name)
             given = value is not None or name in ("gm", "cycle")
             if given and not is_si(value, self.UNITS.get(name, "")):
-                read = self.KINDS[name].read(value, Where(f"{self.name}.{name}"))
-                object.__setattr__(self, name, read)
+                self._set(**{name: self.KINDS[name].read(value, Where(f"{self.name}.{name}"))})
 
     def _read_orbit(self, value: object) -> None:
         """Read the orbital elements; for a spinning body, derive the normal of its orbit."""
         orbit = Orbit.read(value, Where(f"{self.name}.orbit"))
-        object.__setattr__(self, "orbit", orbit)
+        self._set(orbit=orbit)
         if self.position is not None:
             raise BodyError(self.name, "orbit", str(orbit), "position places it; set one")
         if self.pole is not None and not self.pole.of_the_iau and self.orbit_pole is None:
@@ -291,14 +305,8 @@ class Body(shapes.FromMass):
                 raise BodyError(self.name, "orbit.plane", "orbit", allowed)
             plane = laplace_plane(orbit, np.min(self.gm), BODIES.get(orbit.about))
             plane = plane or Plane.of(orbit.plane or "ecliptic", self.pole, None)
-            normal = plane.mean_normal(orbit.i, orbit.node, orbit.node_period)
-            object.__setattr__(self, "orbit_pole", normal)
-
-    def __eq__(self, other: object) -> bool:
-        """Return True if all fields of two bodies are identical, including the labels of arrays."""
-        if not isinstance(other, Body):
-            return NotImplemented
-        return all(is_same(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
+            elements = orbit.i, orbit.node, orbit.node_period
+            self._set(orbit_pole=poles.OrbitNormal(*poles.of_each(plane.mean_normal, *elements)))
 
     def __hash__(self) -> int:
         return hash((self.name, self.naif))
@@ -408,6 +416,8 @@ class Body(shapes.FromMass):
         values = {name: getattr(self, name) for name in self.KINDS}
         if not self.satellites:
             del values["satellites"]
+        if self.orbit is not None and isinstance(self.orbit_pole, poles.OrbitNormal):
+            del values["orbit_pole"]
         table = {n: self.KINDS[n].write(value) for n, value in values.items() if value is not None}
         return {"from": NOTHING} | table
 
@@ -461,8 +471,8 @@ class Body(shapes.FromMass):
         """Angular velocity of rotation, rad/s; negative if retrograde."""
         return 2 * math.pi / self.needed("spin_period")
 
-    @property
-    def moments(self) -> Any:
+    @property  # type: ignore[misc]
+    def moments(self) -> Any:  # noqa: F811
         """Principal moments of inertia A <= B <= C, kg m2, with C about the spin axis.
 
         The result is a NumPy array of shape (3,).
@@ -539,17 +549,41 @@ class Body(shapes.FromMass):
     def magnitudes(self) -> dict[str, Magnitude]:
         """Converters between text and SI values, by field: for the mass and each known number."""
         numbers = {n: self.KINDS[n] for n in self.UNITS if getattr(self, n) is not None}
-        return numbers | {"mass": _CONVERTERS["mass"]}
+        return numbers | {"mass": _CONVERTERS["mass"]} | {n: k for n, (_, k) in self._elements()}
+
+    def _elements(self) -> Iterator[tuple[str, tuple[Numeric, Magnitude]]]:
+        """Yield value and converter of each number of orbit, pole and satellites, by its name."""
+        records: dict[str, Any] = {} if self.orbit is None else {"orbit": self.orbit}
+        records |= {f"satellites.{moon.name.lower()}": moon for moon in self.satellites}
+        for owner, record in records.items():
+            for name, kind in kinds.kinds_of(record.__class__).items():
+                if isinstance(kind, Magnitude) and getattr(record, name) is not None:
+                    yield f"{owner}.{name}", (getattr(record, name), kind)
+        if self.pole is not None and (self.orbit_pole is not None or self.pole.of_the_iau):
+            yield "obliquity", (getattr(self.pole, "obliquity", None), kinds.OBLIQUITY)
+        if type(self.pole) in (FixedPole, MovingPole):
+            for name in Direction._fields:
+                yield f"pole.{name}", (getattr(self.pole, name), kinds.ANGLE)
+
+    @property
+    def arrays(self) -> dict[str, xr.DataArray]:
+        """Numbers that are arrays with named dimensions, by names such as "gm" or "orbit.a"."""
+        values = {name: getattr(self, name) for name in self.UNITS}
+        values |= {name: value for name, (value, _) in self._elements()}
+        return {name: value for name, value in values.items() if hasattr(value, "dims")}
 
     @property
     def labelled(self) -> bool:
-        """True if some field is an array with named dimensions (one body stands for many)."""
-        return self.labelled_field is not None
+        """True if some number is an array with named dimensions (one body stands for many)."""
+        return bool(self.arrays)
 
-    @property
-    def labelled_field(self) -> str | None:
-        """Name of the first field that is an array with named dimensions; None if there is none."""
-        return next((name for name in self.UNITS if hasattr(getattr(self, name), "dims")), None)
+    def isel(self, places: Mapping[Any, int]) -> Body:
+        """Return the body at places along dimensions of its arrays, like `isel` of an array."""
+        arrays = {n: array.isel(places, True, "ignore") for n, array in self.arrays.items()}
+        numbers: dict[str, Any] = {n: a if a.dims else a.item() for n, a in arrays.items()}
+        if "j2" in numbers:  # J2 alone would change H
+            numbers = {"dynamical_flattening": self.dynamical_flattening} | numbers
+        return self.replace(**numbers) if numbers else self
 
     def replace(self, **changes: Any) -> Body:
         """Return a copy of the body with changed fields; fields that depend on them are updated.
@@ -577,13 +611,14 @@ class Body(shapes.FromMass):
         >>> print(rounder.dynamical_flattening / EARTH.dynamical_flattening)
         0.5
         """
+        changes = self._with_elements(changes)
         for key, value in changes.items():
             if key not in _CONVERTERS:
-                problem = _ADVICE.get(key) or nearest(key, _CONVERTERS)
+                problem = _ADVICE.get(key) or nearest(key, {*_CONVERTERS, *dict(self._elements())})
                 raise BodyError(self.name, key, value, problem)
             if value is None and key not in self.KINDS:
                 raise BodyError(self.name, key, value, f"give {_CONVERTERS[key].words}")
-            if type(value) is not float and value is not None:
+            if type(value) is not float and value is not None and key != "obliquity":
                 changes[key] = _CONVERTERS[key].read(value, Where(key))
         if "mass" in changes:
             if "gm" in changes:
@@ -595,11 +630,15 @@ class Body(shapes.FromMass):
         if changes.get("prime_meridian") is not None:
             changes.setdefault("prime_meridian_uncertainty", None)
         changes |= self._figure(changes)
-        another_orbit = self.orbit is not None or obliquity is not None
-        if changes.get("orbit") is not None and another_orbit:
-            changes = {"orbit_pole": None} | changes  # it belonged to the previous orbit
+        # What follows from the previous orbit or pole is derived anew.
+        derived = isinstance(self.orbit_pole, poles.OrbitNormal)
+        follows = (derived and "pole" in changes) or (
+            (derived or obliquity is not None) and "orbit" in changes
+        )
+        if follows and changes.get("orbit", self.orbit) is not None:
+            changes = {"orbit_pole": None} | changes
         # The uncertainty of a number does not apply to a changed value.
-        if "pole" in changes:
+        if "pole" in changes or obliquity is not None:
             changes.setdefault("pole_uncertainty", None)
         uncertainties = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
         changed = _replace(self, **({"relative_uncertainty": uncertainties} | changes))
@@ -609,19 +648,43 @@ class Body(shapes.FromMass):
             return changed
         return _replace(changed, observed_wobble=None)
 
+    def _with_elements(self, changes: dict[str, Any]) -> dict[str, Any]:
+        """Join changes of elements, like "orbit.a", to changes of orbit, pole and satellites."""
+        known = {name for name, _ in self._elements() if "." in name}
+        whole = {key: value for key, value in changes.items() if key not in known}
+        for key in changes.keys() & known:
+            path, _, element = key.rpartition(".")
+            owner, _, label = path.partition(".")
+            if owner in changes:
+                raise BodyError(self.name, key, changes[key], f"{owner} already gives it; set one")
+            change, before = {element: changes[key]}, whole.get(owner, getattr(self, owner))
+            if owner == "orbit":
+                whole[owner] = replace(before, **change)
+            elif owner == "satellites":
+                whole[owner] = tuple(
+                    replace(moon, **change) if moon.name.lower() == label else moon
+                    for moon in before
+                )
+            else:
+                change = {element: kinds.ANGLE.read(changes[key], Where(key))}
+                if np.ndim(change[element]):
+                    raise ApartError("a pole has one direction")
+                moving = isinstance(before, MovingPole)
+                whole[owner] = replace(before, **change) if moving else before._replace(**change)
+        return whole
+
     def _tilted(self, obliquity: object) -> Body:
         """Return a copy of the body with another obliquity and the same orbit normal."""
-        if self.pole is None:
-            return _replace(self, obliquity=obliquity)
-        fixed = self
+        angle = self._checked_obliquity(obliquity)
+        if self.pole is None or isinstance(self.pole, TiltedPole):
+            equinox_of = getattr(self.pole, "equinox_of", None)
+            return _replace(self, pole=TiltedPole.at(angle, equinox_of))
+        pole = TiltedPole.at(angle, FixedPole.along(self.pole.mean(np.zeros(1))[0]))
+        normal = self.orbit_pole
         if self.pole.of_the_iau:  # its orbit is the ecliptic, unless another is given
-            ecliptic = Direction.along(self.pole.orbit_normal(None))
-            fixed = _replace(
-                self,
-                pole=FixedPole.along(self.pole.mean(np.zeros(1))[0]),
-                orbit_pole=ecliptic if self.orbit is None else None,
-            )
-        return _replace(fixed, pole=fixed._pole_at(obliquity), pole_uncertainty=None)
+            ecliptic = poles.OrbitNormal.along(self.pole.orbit_normal(None))
+            normal = ecliptic if self.orbit is None else None
+        return _replace(self, pole=pole, orbit_pole=normal)
 
     def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
         """Return J2, H and triaxiality from new moments of inertia, or only H from a new J2.
@@ -630,8 +693,7 @@ class Body(shapes.FromMass):
         """
         if "moments" in changes:
             moments = changes.pop("moments")
-            clash = {"j2", "dynamical_flattening", "triaxiality"} & set(changes)
-            if clash:
+            if clash := _FIGURE & changes.keys():
                 allowed = f"moments already give {sorted(clash)[0]}; set one"
                 raise BodyError(self.name, "moments", moments, allowed)
             gm: Numeric = changes.get("gm", self.gm)
@@ -668,6 +730,11 @@ class Body(shapes.FromMass):
         return all_of(self.are_as_named)
 
 
+def _replace(body: Body, **changes: Any) -> Body:
+    """Return a copy of a body with other fields, made anew and checked."""
+    return Body(**(vars(body) | changes))
+
+
 Body.KINDS = kinds.kinds_of(Body)
 Body.UNITS = {name: kind.unit for name, kind in Body.KINDS.items() if isinstance(kind, Magnitude)}
 Body.LABELLED = frozenset(Body.UNITS) - {
@@ -678,8 +745,11 @@ Body.LABELLED = frozenset(Body.UNITS) - {
 #: Converters of all keys by which a body can be created or changed.
 _CONVERTERS: dict[str, Any] = {
     **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": kinds.ThreeMoments(),
-    "obliquity": Magnitude("rad", "40 deg"),
+    "obliquity": kinds.OBLIQUITY,
 }  # fmt: skip
+
+#: Fields that follow from moments of inertia.
+_FIGURE = frozenset({"j2", "dynamical_flattening", "triaxiality"})
 
 #: Keys that change other fields of a body.
 _DERIVED = _CONVERTERS.keys() - Body.KINDS.keys() - {"obliquity"}
@@ -781,9 +851,5 @@ def members(bodies: Iterable[Body]) -> int:
     ----------
     bodies : iterable of Body
     """
-    along: dict[Any, int] = {}
-    for world in bodies:
-        for name in world.UNITS:
-            array = getattr(world, name)
-            along |= {dim: array.sizes[dim] for dim in getattr(array, "dims", ())}
-    return math.prod(along.values())
+    arrays = [array for world in bodies for array in world.arrays.values()]
+    return math.prod({dim: n for array in arrays for dim, n in array.sizes.items()}.values())

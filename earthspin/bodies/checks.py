@@ -45,7 +45,22 @@ def is_same(value: object, other: object) -> bool:
     """Test whether two values are identical, including the coordinate labels of arrays."""
     if hasattr(value, "identical"):
         return type(value) is type(other) and bool(value.identical(other))
+    if isinstance(value, tuple) and isinstance(other, tuple):
+        return len(value) == len(other) and all(map(is_same, value, other))
     return not hasattr(other, "identical") and value == other
+
+
+class Record:
+    """Base class of records whose numbers may be labelled arrays."""
+
+    def __eq__(self, other: object) -> bool:
+        """Return True if all fields are identical, including the labels of arrays."""
+        if type(self) is not type(other):
+            return NotImplemented
+        return all(is_same(value, vars(other)[name]) for name, value in vars(self).items())
+
+    def __hash__(self) -> int:
+        return hash(type(self))
 
 
 # --- checks of a new body -------------------------------------------------------------------------
@@ -108,7 +123,6 @@ def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
         if body[field] is not None and not all_of(is_finite(body[field])):
             raise BodyError(name, field, body[field], "it must be a finite number")
     _check_words(body)
-    _check_labels(name, {field: body[field] for field in numbers})
 
 
 def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
@@ -208,7 +222,7 @@ def _check_words(body: Fields) -> None:
         raise BodyError(name, "relative_uncertainty", table, "give a table of numbers")
 
 
-def _check_labels(name: str, numbers: Fields) -> None:
+def check_labels(name: str, numbers: Fields) -> None:
     """Check that arrays that share a dimension have the same length and labels along it."""
     by_dimension: dict[str, tuple[str, Any]] = {}
     for field, array in numbers.items():

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
+from functools import cache
 from itertools import pairwise
 from typing import Any, get_type_hints
 
@@ -15,6 +16,7 @@ from earthspin.constants import Constant
 from earthspin.errors import EarthspinError, Where, nearest
 from earthspin.interior.layers import Layer, LayeredBody, from_samples
 from earthspin.interior.named import INTERIORS
+from earthspin.sky.poles import Direction, FixedPole, MovingPole, OrbitNormal, PoleModel, TiltedPole
 from earthspin.sky.sources import read_position, write_position
 from earthspin.units import TURN, Plain, Text, is_whole, pack, quantity, real_numbers, unpack
 
@@ -33,11 +35,14 @@ class Magnitude:
         Example of a number with its unit.
     ratio : str
         Definition of a dimensionless number as a quotient.
+    polar : bool
+        Whether the number is an angle from 0 to 180 deg, from which whole turns are not removed.
     """
 
     unit: str
     text: str
     ratio: str = "..."
+    polar: bool = False
 
     words, hint = "a number with its unit", "float | str | Quantity | DataArray"
 
@@ -51,7 +56,7 @@ class Magnitude:
         if isinstance(value, Mapping):
             return _labelled(value, where)
         number = quantity(value, self.unit, where, self.text)
-        if self.unit == "rad" and np.ndim(number) == 0 and abs(number) > TURN:
+        if self.unit == "rad" and not self.polar and np.ndim(number) == 0 and abs(number) > TURN:
             return math.fmod(number, TURN)  # plain angles, as it is then, are within a turn
         return number
 
@@ -61,6 +66,47 @@ class Magnitude:
             table = pack(value.values) | {"dims": list(map(str, value.dims))}
             return table | {"labels": _labels_of(value)}
         return f"{float(value)!r} {self.unit}" if self.unit else value
+
+
+#: An angle of a direction, and an obliquity.
+ANGLE, OBLIQUITY = Magnitude("rad", "317.7 deg"), Magnitude("rad", "40 deg", polar=True)
+
+
+class PoleInText:
+    """Converter of a pole: two angles, a name, or a table of an obliquity or of a moving pole."""
+
+    words, hint = "right ascension and declination", "tuple[float | str, float | str]"
+    form = '["... deg", "... deg"]'
+
+    def read(self, value: object, where: Where) -> Any:
+        """Read the pole of a body: two angles (rad by default), a name, or a table."""
+        if isinstance(value, (str, OrbitNormal)) or hasattr(value, "of_the_iau"):
+            return value
+        if isinstance(value, Mapping) and "obliquity" in value:
+            where.refuse_unknown(value, ("obliquity", "equinox_of"))
+            obliquity = OBLIQUITY.read(value["obliquity"], where.at("obliquity"))
+            equinox_of = self.read(value["equinox_of"], where) if "equinox_of" in value else None
+            return TiltedPole.at(obliquity, equinox_of and FixedPole.of(equinox_of))
+        if isinstance(value, Mapping):
+            return MovingPole.read(value, where)
+        if not isinstance(value, (list, tuple)) or len(value) != 2:
+            problem = "an array" if getattr(value, "ndim", 0) else value
+            raise where.error(problem, f"give one direction: {self.words}")
+        angles = tuple(ANGLE.read(angle, where) for angle in value)
+        if any(map(np.ndim, angles)):
+            raise where.error("an array", f"give one direction: {self.words}")
+        return angles
+
+    def write(self, value: Direction | PoleModel) -> Plain:
+        """Convert a pole for scene files: to a name, two angles, or a table."""
+        if isinstance(value, MovingPole):
+            return value.write()
+        if isinstance(value, TiltedPole):
+            table = {"obliquity": OBLIQUITY.write(value.obliquity)}
+            return table | {"equinox_of": self.write(value.equinox_of)}
+        if isinstance(value, Direction):
+            return [ANGLE.write(angle) for angle in value]
+        return str(value)
 
 
 class ThreeMoments:
@@ -163,6 +209,7 @@ class CitedPeriod:
         return {name: entry for name, entry in asdict(value).items() if entry not in (None, "")}
 
 
+@cache
 def kinds_of(record: type) -> dict[str, Any]:
     """Return the converters in the type annotations of a class, by name of the annotated field."""
     hints = get_type_hints(record, include_extras=True)

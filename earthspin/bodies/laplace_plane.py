@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from earthspin.bodies.orbit import Orbit
+from earthspin.errors import BodyError
 from earthspin.sky.elements import Plane
 from earthspin.sky.poles import angle, fixed_equator
 
@@ -36,12 +37,14 @@ def laplace_plane(orbit: Orbit, gm: float, planet: Any) -> Plane | None:
         return None
     if planet.pole.of_the_iau or planet.orbit_pole is None or planet.orbital_period is None:
         return None
+    if hasattr(orbit.a, "dims") or hasattr(orbit.period, "dims"):
+        problem = "values along a dimension have planes of their own; set plane = 'ecliptic'"
+        raise BodyError(planet.name, "orbit.plane of its moon", None, problem)
     pole = planet.pole.without_nutation().mean(np.zeros(1))[0]
     normal = planet.orbit_pole.vector()
     obliquity, mass = angle(pole, normal), planet.number("gm")
-    period = orbit.period
-    a = orbit.a if period is None else math.cbrt(mass * (period / math.tau) ** 2)
-    assert a is not None
+    period: Any = orbit.period
+    a: Any = orbit.a if period is None else math.cbrt(mass * (period / math.tau) ** 2)
     bulge = planet.number("j2") * planet.number("radius") ** 2
     for moon in planet.satellites:
         if moon.a < 0.99 * a:

@@ -5,12 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
-from itertools import pairwise
+from itertools import combinations
 from typing import Annotated, Any, ClassVar
 
+import numpy as np
+
+from earthspin.bodies.checks import Record, all_of, is_same
 from earthspin.bodies.kinds import Magnitude, kinds_of
 from earthspin.dates import MICROSECONDS_PER_DAY, microseconds
-from earthspin.errors import Where
+from earthspin.errors import Where, checked
+from earthspin.numerics.arrays import Numeric
 from earthspin.units import Plain, Text, Word, is_si
 
 # --- orbits ---------------------------------------------------------------------------------------
@@ -39,15 +43,16 @@ class Epoch:
         return value
 
 
-@dataclass(frozen=True, kw_only=True)
-class Orbit:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Orbit(Record):
     """Keplerian elements of an orbit, from which positions are computed without a kernel.
 
     For a perturber this is its orbit about the spinning body, unless `about` names another centre.
     For the spinning body this is its own orbit. Thus either the Sun may have its apparent orbit, or
     the spinning body its orbit about the Sun.
 
-    Numbers carry their units as text or Quantities; plain ones are SI and radians.
+    Numbers carry their units as text or Quantities; plain ones are SI and radians. They may be
+    labelled arrays, for many orbits.
 
     Attributes
     ----------
@@ -100,24 +105,24 @@ class Orbit:
     50.4
     """
 
-    a: Annotated[float | None, Magnitude("m", "384399 km")] = None
-    period: Annotated[float | None, Magnitude("s", "27.32 d")] = None
-    e: Annotated[float, Magnitude("", "0.0549")] = 0.0
-    i: Annotated[float, Magnitude("rad", "5.145 deg")] = 0.0
-    node: Annotated[float, Magnitude("rad", "125 deg")] = 0.0
-    pericentre: Annotated[float, Magnitude("rad", "318 deg")] = 0.0
-    mean_anomaly: Annotated[float, Magnitude("rad", "135 deg")] = 0.0
+    a: Annotated[Numeric | None, Magnitude("m", "384399 km")] = None
+    period: Annotated[Numeric | None, Magnitude("s", "27.32 d")] = None
+    e: Annotated[Numeric, Magnitude("", "0.0549")] = 0.0
+    i: Annotated[Numeric, Magnitude("rad", "5.145 deg", polar=True)] = 0.0
+    node: Annotated[Numeric, Magnitude("rad", "125 deg")] = 0.0
+    pericentre: Annotated[Numeric, Magnitude("rad", "318 deg")] = 0.0
+    mean_anomaly: Annotated[Numeric, Magnitude("rad", "135 deg")] = 0.0
     epoch: Annotated[float, Epoch()] = 0.0
-    node_period: Annotated[float | None, Magnitude("s", "-6793.5 d")] = None
-    pericentre_period: Annotated[float | None, Magnitude("s", "2191 d")] = None
+    node_period: Annotated[Numeric | None, Magnitude("s", "-6793.5 d")] = None
+    pericentre_period: Annotated[Numeric | None, Magnitude("s", "2191 d")] = None
     plane: Annotated[str | None, Word(PLANES)] = None
     about: Annotated[str, Text()] = ""
     reference: Annotated[str, Text()] = ""
-    direction_error: Annotated[float | None, Magnitude("rad", "700 arcsec")] = None
-    direction_drift: Annotated[float | None, Magnitude("rad/s", "3 arcsec/yr")] = None
-    distance_error: Annotated[float | None, Magnitude("m", "7e5 km")] = None
-    distance_drift: Annotated[float | None, Magnitude("m/s", "0.06 m/s")] = None
-    rate_error: Annotated[float | None, Magnitude("", "0.001")] = None
+    direction_error: Annotated[Numeric | None, Magnitude("rad", "700 arcsec")] = None
+    direction_drift: Annotated[Numeric | None, Magnitude("rad/s", "3 arcsec/yr")] = None
+    distance_error: Annotated[Numeric | None, Magnitude("m", "7e5 km")] = None
+    distance_drift: Annotated[Numeric | None, Magnitude("m/s", "0.06 m/s")] = None
+    rate_error: Annotated[Numeric | None, Magnitude("", "0.001")] = None
 
     words: ClassVar[str] = 'a table of elements, like {a = "384399 km", e = 0.0549}'
     hint: ClassVar[str] = "Orbit | Mapping[str, Any]"
@@ -145,35 +150,43 @@ class Orbit:
 
     def write(self) -> Plain:
         """Convert the orbit to a table of all elements that are set, for scene files."""
-        elements = {name: getattr(self, name) for name in _KINDS}
-        return {n: _KINDS[n].write(v) for n, v in elements.items() if v not in (None, "")}
+        values = {name: getattr(self, name) for name in _KINDS}
+        elements = {n: v for n, v in values.items() if not (v is None or is_same(v, ""))}
+        return {name: _KINDS[name].write(value) for name, value in elements.items()}
 
     def __str__(self) -> str:
         elements = (
-            f"{name} = {value}"
+            f"{name} = {'an array' if isinstance(value, dict) else value}"
             for name, value in self.write().items()
-            if name != "reference" and getattr(self, name) != _DEFAULTS[name]
+            if name != "reference" and not is_same(getattr(self, name), _DEFAULTS[name])
         )
         return ", ".join(elements)
 
 
 _KINDS = kinds_of(Orbit)
+Orbit.__init__ = checked(Orbit.__init__)  # type: ignore[method-assign]
 _DEFAULTS = {f.name: f.default for f in fields(Orbit)}
 
 #: Plausibility bound: above the size and age of the observable universe, m and s.
 _LARGEST = 1e30
 
+
+def _is_size(size: Numeric) -> Numeric:
+    return (size > 0) & (size <= _LARGEST)
+
+
+_ELLIPSE = "the orbit must be an ellipse: e is 0 or more, less than 1; a hyperbola is a position="
 #: Conditions on each element, besides being finite.
-_RULES: dict[str, tuple[Callable[[float], bool], str]] = {
-    "a": (lambda a: 0 < a <= _LARGEST, f"it is greater than zero, and at most {_LARGEST:g} m"),
-    "period": (lambda p: 0 < p <= _LARGEST, f"it is greater than zero, and at most {_LARGEST:g} s"),
-    "e": (lambda e: 0 <= e < 1, "the orbit must be an ellipse: e is 0 or more, less than 1"),
-    "i": (lambda i: 0 <= i <= math.pi, "an inclination must be 0 to 180 deg"),
+_RULES: dict[str, tuple[Callable[[Numeric], Numeric], str]] = {
+    "a": (_is_size, f"it is greater than zero, and at most {_LARGEST:g} m"),
+    "period": (_is_size, f"it is greater than zero, and at most {_LARGEST:g} s"),
+    "e": (lambda e: (e >= 0) & (e < 1), _ELLIPSE),
+    "i": (lambda i: (i >= 0) & (i <= math.pi), "an inclination must be 0 to 180 deg"),
     "node_period": (lambda p: p != 0, "a period is not zero; negative is backwards"),
     "pericentre_period": (lambda p: p != 0, "a period is not zero; negative is backwards"),
 } | dict.fromkeys(
     ("direction_error", "direction_drift", "distance_error", "distance_drift", "rate_error"),
-    (lambda size: 0 <= size <= _LARGEST, "a bound on an error is zero or more"),
+    (lambda size: (size >= 0) & (size <= _LARGEST), "a bound on an error is zero or more"),
 )
 
 
@@ -189,16 +202,15 @@ def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
     for name, value in elements.items():
         if value is None:
             continue
-        if hasattr(value, "dims") or isinstance(value, Mapping):
-            raise where.at(name).error("an array", "an element is one number")
         # already in SI; skips loading the converters
-        plain = is_si(value, getattr(_KINDS[name], "unit", "")) and math.isfinite(value)
+        plain = is_si(value, getattr(_KINDS[name], "unit", "")) and all_of(np.isfinite(value))
         read[name] = (
             value if plain and not where.typed else _KINDS[name].read(value, where.at(name))
         )
-        if not isinstance(read[name], (float, str)):
-            raise where.at(name).error(value, "an element is one number")
-        if name in _RULES and not _RULES[name][0](read[name]):
+        if not (isinstance(read[name], (float, str)) or hasattr(read[name], "dims")):
+            problem = "an element is one number, or a DataArray with named dimensions"
+            raise where.at(name).error(value, problem)
+        if name in _RULES and not all_of(_RULES[name][0](read[name])):
             raise where.at(name).error(value, _RULES[name][1])
     if "a" not in read and "period" not in read:
         raise where.error(None, _ONE_OF)
@@ -208,8 +220,8 @@ def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
 # --- satellites -----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class Satellite:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Satellite(Record):
     """Satellite of a planet, with a mean orbital plane that precesses with the planet's equator.
 
     Numbers carry their units as text or Quantities; plain ones are SI and radians.
@@ -245,10 +257,10 @@ class Satellite:
     """
 
     name: Annotated[str, Text()]
-    gm: Annotated[float, Magnitude("m3/s2", "8978 km3/s2")]
-    a: Annotated[float, Magnitude("m", "1221865 km")]
-    i: Annotated[float, Magnitude("rad", "0.3 deg")] = 0.0
-    gm_uncertainty: Annotated[float, Magnitude("m3/s2", "2 km3/s2")] = 0.0
+    gm: Annotated[Numeric, Magnitude("m3/s2", "8978 km3/s2")]
+    a: Annotated[Numeric, Magnitude("m", "1221865 km")]
+    i: Annotated[Numeric, Magnitude("rad", "0.3 deg", polar=True)] = 0.0
+    gm_uncertainty: Annotated[Numeric, Magnitude("m3/s2", "2 km3/s2")] = 0.0
     reference: Annotated[str, Text()] = ""
 
     words: ClassVar[str] = 'a table like {name = "titan", gm = "8978 km3/s2", a = "1221865 km"}'
@@ -257,11 +269,11 @@ class Satellite:
         where = Where(f"satellites.{self.name}")
         for name, kind in _SATELLITE_KINDS.items():
             value = kind.read(getattr(self, name), where.at(name))
-            if isinstance(kind, Magnitude) and not isinstance(value, float):
-                raise where.at(name).error("an array", "it is one number")
+            if np.ndim(value) and not hasattr(value, "dims"):
+                raise where.at(name).error("an array", "give a number, or a DataArray")
             object.__setattr__(self, name, value)
         for name, holds, allowed in _SATELLITE_RULES:
-            if not holds(getattr(self, name)):
+            if not all_of(holds(getattr(self, name))):
                 raise where.at(name).error(getattr(self, name), allowed)
 
     @classmethod
@@ -287,9 +299,11 @@ class Satellite:
     def write(self) -> Plain:
         """Convert the satellite to a table of the numbers that are given, for scene files."""
         values = {f.name: getattr(self, f.name) for f in fields(self)}
-        return {n: _SATELLITE_KINDS[n].write(v) for n, v in values.items() if v not in (0.0, "")}
+        given = {n: v for n, v in values.items() if not (is_same(v, 0.0) or is_same(v, ""))}
+        return {n: _SATELLITE_KINDS[n].write(value) for n, value in given.items()}
 
 
+Satellite.__init__ = checked(Satellite.__init__)  # type: ignore[method-assign]
 _SATELLITE_KINDS = kinds_of(Satellite)
 #: Plausibility bound: above mass and size of the observable universe, SI.
 _LARGEST_SATELLITE = 1e60
@@ -298,10 +312,10 @@ _LEAST = 1e-9
 _RANGE_OF_GM = f"it is {_LEAST:g} to {_LARGEST_SATELLITE:g} m3 s-2; leave out what has no mass"
 _RANGE_OF_A = f"it is greater than zero, and at most {_LARGEST_SATELLITE:g} m"
 #: Conditions on each number.
-_SATELLITE_RULES: tuple[tuple[str, Callable[[float], bool], str], ...] = (
-    ("gm", lambda gm: _LEAST <= gm <= _LARGEST_SATELLITE, _RANGE_OF_GM),
-    ("a", lambda a: 0 < a <= _LARGEST_SATELLITE, _RANGE_OF_A),
-    ("i", lambda i: 0 <= i <= math.pi, "an inclination must be 0 to 180 deg"),
+_SATELLITE_RULES: tuple[tuple[str, Callable[[Numeric], Numeric], str], ...] = (
+    ("gm", lambda gm: (gm >= _LEAST) & (gm <= _LARGEST_SATELLITE), _RANGE_OF_GM),
+    ("a", lambda a: (a > 0) & (a <= _LARGEST_SATELLITE), _RANGE_OF_A),
+    ("i", lambda i: (i >= 0) & (i <= math.pi), "an inclination must be 0 to 180 deg"),
     ("gm_uncertainty", lambda u: u >= 0, "an uncertainty must be zero or more"),
 )
 
@@ -324,8 +338,8 @@ class SatelliteList:
         names = [satellite.name for satellite in satellites]
         if len(set(names)) < len(names):
             raise where.error(names, "each satellite has its own name")
-        sizes = sorted(satellite.a for satellite in satellites)
-        if any(outer - inner < _APART * outer for inner, outer in pairwise(sizes)):
+        pairs = combinations((satellite.a for satellite in satellites), 2)
+        if not all(all_of(abs(one - two) >= _APART * np.maximum(one, two)) for one, two in pairs):
             raise where.error(names, "two satellites share one orbit; join their masses")
         return satellites
 

@@ -100,7 +100,7 @@ def _all_inputs(question: Question) -> Iterator[tuple[str, Input]]:
             for index, body in enumerate(bodies):
                 owner, element = (key, None) if body is value else (body.name, index)
                 for field, inner in body.magnitudes().items():
-                    labelled = field in body.LABELLED
+                    labelled = field in body.LABELLED or field not in {*body.UNITS, "mass"}
                     yield f"{owner}.{field}", Input(key, element, field, inner, labelled)
         elif isinstance(kind, Number):
             yield key, Input(key, None, "", kind, True)

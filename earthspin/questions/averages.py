@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from earthspin._version import version
 from earthspin.bodies import Body, Numeric, checks
 from earthspin.constants import DAY
 from earthspin.engine import part
+from earthspin.errors import ApartError
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import Estimate, FloatArray
 from earthspin.questions import ellipse_chains as chains
@@ -89,6 +91,8 @@ def torque_samples(
     sky: Sky, interval: Interval, body: Body, perturbers: tuple[Body, ...]
 ) -> Samples:
     """Compute the torque of each perturber, divided by C - A, at the sample times of the mean."""
+    if chains.cases(body, perturbers)[0]:
+        raise ApartError("windowed averages are computed for one orbit, pole and set of satellites")
     body = with_mean_pole(body)
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
@@ -181,7 +185,7 @@ def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None
 def slowest_cycle(perturber: Body) -> float:
     """Longest period in the torque of a perturber, s; an average must cover this period."""
     node_period = perturber.orbit is not None and perturber.orbit.node_period
-    return max(perturber.cycle, abs(node_period or 0.0))
+    return float(max(perturber.cycle, abs(node_period or 0.0)))
 
 
 @dataclass(frozen=True)
@@ -198,10 +202,10 @@ class MeanTorques:
         Torque and its half-width in axes of equator and equinox of date, s-2.
     epoch : float
         Reference epoch, s from J2000.0 TDB.
-    obliquity : float
-        Obliquity of the axis to the orbit at the epoch, rad.
-    inverse_cube : ndarray, shape (perturber,)
-        Mean of 1/r3 of each perturber, m-3.
+    obliquity : float or DataArray
+        Obliquity of the axis to the orbit at the epoch, rad; an array if orbits are arrays.
+    inverse_cube : ndarray, shape (perturber,) or (perturber, m)
+        Mean of 1/r3 of each perturber, m-3, for m cases if orbits are arrays.
     over, method : str
         Descriptions of the window, and of the window with the step.
     evaluations : int
@@ -220,7 +224,7 @@ class MeanTorques:
     torque: FloatArray
     torque_error: FloatArray
     epoch: float
-    obliquity: float
+    obliquity: Numeric
     inverse_cube: FloatArray
     over: str
     method: str
@@ -228,6 +232,13 @@ class MeanTorques:
     no_error: str = ""
     provenance: Mapping[str, str] = field(default_factory=dict)
     cases: Mapping[str, int] = field(default_factory=dict)
+
+    def inverse_cubes(self) -> list[Numeric]:
+        """Mean of 1/r3 of each perturber, m-3: a number, or an array if orbits are arrays."""
+        if self.inverse_cube.ndim == 1:
+            return [*self.inverse_cube]
+        shape = tuple(self.cases.values())
+        return [xr.DataArray(row.reshape(shape), dims=[*self.cases]) for row in self.inverse_cube]
 
 
 def _stored_samples(torque_samples: Samples, perturbers: tuple[Body, ...]) -> Hashable:
@@ -271,6 +282,22 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
 
     Each mean is over the orbit and the precession of its node.
     """
+    sizes, each = chains.cases(body, perturbers)
+    every = [_means_on_ellipses(*bodies) for bodies in each]
+    if not sizes:
+        return every[0]
+
+    def stacked(name: str) -> FloatArray:
+        return np.stack([getattr(means, name) for means in every], axis=-1)
+
+    names = ("precessing", "precessing_error", "torque", "torque_error", "inverse_cube")
+    obliquity = xr.DataArray(stacked("obliquity").reshape(*sizes.values()), dims=[*sizes])
+    arrays: dict[str, Any] = {name: stacked(name) for name in names} | {"obliquity": obliquity}
+    return replace(every[0], cases=sizes, **arrays)
+
+
+def _means_on_ellipses(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
+    """Mean torques on a body with one orbit, under perturbers with one orbit each."""
     body = with_mean_pole(body)
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
@@ -385,7 +412,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
     array = _labeller(means) if body.labelled or means.cases else np.asarray
     uncertainties = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
     u_gm = array(rates.total_uncertainty(means.precessing, uncertainties))
-    pairs = zip(perturbers, means.inverse_cube, strict=True)
+    pairs = zip(perturbers, means.inverse_cubes(), strict=True)
     gm_over_r3 = sum(p.gm_on(body) * inverse_cube for p, inverse_cube in pairs)
     moons = satellite_factors(body, gm_over_r3, means.obliquity)
     rate = rates.precession_estimate(
@@ -399,7 +426,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
     )
     by_orbit = sum(
         abs(of_perturber(rate.value, index)) / ((body.gm_on(p) + p.gm_on(body)) * inverse) ** 0.5
-        for index, (p, inverse) in enumerate(zip(perturbers, means.inverse_cube, strict=True))
+        for index, (p, inverse) in enumerate(zip(perturbers, means.inverse_cubes(), strict=True))
     )
     total = abs(of_perturber(rate.value))
     by_spin = abs(total / body.spin_rate)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -198,10 +199,38 @@ def locked_error(body: Body, perturber: str, turns: float) -> UndefinedError:
     )
 
 
+@lru_cache(maxsize=1)  # several parts of a question need them
+def cases(
+    body: Body, perturbers: tuple[Body, ...]
+) -> tuple[dict[str, int], list[tuple[Body, tuple[Body, ...]]]]:
+    """Separate orbits, poles and satellites that are arrays, with the masses about them.
+
+    Returns
+    -------
+    sizes : dict of str to int
+        Dimensions of the arrays with their lengths; empty if there is one orbit of each body.
+    bodies : list of (Body, tuple of Body)
+        Body and perturbers with one orbit each, in the order of the arrays.
+    """
+    bodies = (body, *perturbers)
+    orbits = [member.orbit for member in bodies if member.orbit is not None]
+    by_mass = any(orbit.a is None or orbit.period is None for orbit in orbits)
+    sizes = {
+        str(dim): n
+        for member in bodies
+        for name, array in member.arrays.items()
+        if name not in body.UNITS or (by_mass and name == "gm")
+        for dim, n in array.sizes.items()
+    }
+    places = [dict(zip(sizes, place, strict=True)) for place in np.ndindex(*sizes.values())]
+    return sizes, [(body.isel(p), tuple(other.isel(p) for other in perturbers)) for p in places]
+
+
 def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
     """Return True if all perturber positions relative to the body follow from orbital elements."""
     if not any(member.orbit is not None for member in (body, *perturbers)):
         return False
+    body, perturbers = cases(body, perturbers)[1][0]
     by_name = ellipse_chains(body, perturbers)
     return all(p.name in by_name and by_name[p.name].start is body for p in perturbers)
 
@@ -221,6 +250,7 @@ def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
         turns = locked_turns(float(body.spin_rate), 2 * math.pi / body.number("orbital_period"))
         if turns is not None:
             raise locked_error(body, moon.about, turns)
+    body, perturbers = cases(body, perturbers)[1][0]
     by_name = ellipse_chains(body, perturbers)
     single = all(chain.start is body and len(chain.ellipses) == 1 for chain in by_name.values())
     exact = single and len(by_name) >= len(perturbers)

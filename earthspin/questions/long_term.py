@@ -187,7 +187,10 @@ class LongTerm(
         if "perturbers" not in self.given and no_iau_model(self.body):
             object.__setattr__(self, "perturbers", (SUN,))
         if sorted(p.known_as for p in self.perturbers) not in (["sun"], ["moon", "sun"]):
-            problem = "give ('sun',) or ('sun', 'moon'), or bodies with the NAIF codes 10 and 301"
+            problem = (
+                "orbits over millennia, node and tides are those of the Sun (NAIF 10) and the Moon "
+                "(301): give ('sun',) or both; for another star ask for precession or rotation"
+            )
             raise self.error("perturbers", [p.name for p in self.perturbers], problem)
 
 

@@ -50,7 +50,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
         None, doc="first and last date of the average; all that the kernel covers if not given"
     )
 
-    array_masses = True
+    array_masses = array_orbits = True
 
 
 # --- the answer ----------------------------------------------------------------------------------
@@ -173,7 +173,7 @@ class FigureModels(
     j2_from_moment_difference = measured("1", "J2 computed back from C - A", along=())
 
 
-@part(unless=(no_figure, reasons.mass_is_array))
+@part(unless=(no_figure, reasons.mass_is_array, reasons.orbit_is_array))
 def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) -> FigureModels:
     """Compute H from three models of the figure, and the precession and free wobble for each H."""
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
@@ -332,7 +332,7 @@ class Standstills(Variables, along=("standstill",)):
     standstill = labels("day of the extreme declination (TDB)")
 
 
-@part(unless=reasons.no_moon)
+@part(unless=(reasons.no_moon, reasons.orbit_is_array))
 def standstills(
     sky: Sky, interval: Interval, body: Body, perturbers: tuple[Body, ...]
 ) -> Standstills:

@@ -10,7 +10,9 @@ import numpy as np
 from earthspin.bodies import Body, in_a_sentence, label_of, proper
 from earthspin.constants import DAY, NORMAL_95, PUBLISHED_EFFECTS
 from earthspin.engine import Neglected, Variables, measured, part
+from earthspin.numerics.arrays import Numeric
 from earthspin.nutation.rate_budget import published_effects
+from earthspin.questions.ellipse_chains import cases
 
 
 def no_iau_model(body: Body) -> str | None:
@@ -67,7 +69,13 @@ def mass_is_array(perturbers: tuple[Body, ...]) -> str | None:
     return f"the mass of '{arrays[0]}' is an array" if arrays else None
 
 
-def north_note(body: Body, obliquity: float | None = None) -> dict[str, str]:
+def orbit_is_array(body: Body, perturbers: tuple[Body, ...]) -> str | None:
+    """Return why results that need one orbit are omitted (text) if there are many, else None."""
+    many = bool(cases(body, perturbers)[0])
+    return "orbits, poles or satellites are arrays" if many else None
+
+
+def north_note(body: Body, obliquity: Numeric | None = None) -> dict[str, str]:
     """Attributes that explain the obliquity of a body that spins backwards; empty for other bodies.
 
     Parameters
@@ -83,7 +91,7 @@ def north_note(body: Body, obliquity: float | None = None) -> dict[str, str]:
         "north": f"the pole of {in_a_sentence(body.name)}, about which it spins backwards; "
         "the angle of the spin vector is 180 deg minus this"
     }
-    if obliquity is not None:
+    if obliquity is not None and not np.ndim(obliquity):
         note["spin_obliquity"] = f"{180 - math.degrees(obliquity):.2f} deg"
     return note
 

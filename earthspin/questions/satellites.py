@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -91,7 +91,7 @@ def describe_pole(body: Body) -> str:
     return f"mean over the nodes of {names}"
 
 
-def satellite_factors(body: Body, gm_over_r3: Numeric, obliquity: float) -> SatelliteFactors:
+def satellite_factors(body: Body, gm_over_r3: Numeric, obliquity: Numeric) -> SatelliteFactors:
     """Compute the factors by which satellites change torque, moment and precession of a body.
 
     Parameters
@@ -100,7 +100,7 @@ def satellite_factors(body: Body, gm_over_r3: Numeric, obliquity: float) -> Sate
         Its numbers may be labelled arrays.
     gm_over_r3 : float or DataArray
         Sum of GM <1/r3> of the perturbers, s-2.
-    obliquity : float
+    obliquity : float or DataArray
         rad.
 
     Raises
@@ -111,6 +111,8 @@ def satellite_factors(body: Body, gm_over_r3: Numeric, obliquity: float) -> Sate
     if not body.satellites:
         return SatelliteFactors()
     _refuse_sphere(body)
+    if hasattr(obliquity, "dims") or any(n.startswith("satellites.") for n in body.arrays):
+        return _factors_of_each(body, gm_over_r3, obliquity)
     names = ("gm", "radius", "j2", "dynamical_flattening", "spin_rate")
     inputs = [*(getattr(body, name) for name in names), gm_over_r3]
     numbers = xr.broadcast(*map(xr.DataArray, inputs))
@@ -143,6 +145,18 @@ def satellite_factors(body: Body, gm_over_r3: Numeric, obliquity: float) -> Sate
     return SatelliteFactors(*map(labelled, factors_and_errors))
 
 
+def _factors_of_each(body: Body, gm_over_r3: Numeric, obliquity: Numeric) -> SatelliteFactors:
+    """Compute `satellite_factors` one by one where satellites or obliquities are arrays."""
+    numbers = obliquity, gm_over_r3, *body.arrays.values()
+    eps, pull, *_ = xr.broadcast(*map(xr.DataArray, numbers))
+    factors = np.empty((4, *eps.shape))
+    for place in np.ndindex(eps.shape):
+        alone = body.isel(dict(zip(eps.dims, place, strict=True)))
+        case = satellite_factors(alone, float(pull.values[place]), float(eps.values[place]))
+        factors[:, *place] = astuple(case)
+    return SatelliteFactors(*(eps.copy(data=values) for values in factors))
+
+
 @dataclass(frozen=True)
 class NodeNutation:
     """Nutation of a body caused by the moving node of one of its satellites.
@@ -167,7 +181,7 @@ class NodeNutation:
         return f"{float(f'{2 * np.pi / self.node_rate / JULIAN_YEAR:.3g}'):,g} years"
 
 
-def node_nutations(body: Body, gm_over_r3: Numeric, obliquity: float) -> dict[str, NodeNutation]:
+def node_nutations(body: Body, gm_over_r3: Numeric, obliquity: Numeric) -> dict[str, NodeNutation]:
     """Nutations of a body caused by the moving nodes of satellites, by name of the node.
 
     An orbit that is tilted to the Laplace plane turns, so its node goes round, and the torque on
@@ -179,6 +193,7 @@ def node_nutations(body: Body, gm_over_r3: Numeric, obliquity: float) -> dict[st
     _refuse_sphere(body)
     figure = (body.needed(name) for name in ("radius", "j2", "dynamical_flattening"))
     numbers = [body.gm, *figure, body.spin_rate, gm_over_r3]
+    obliquity = float(np.mean(obliquity))
     planet = _planet([np.full((1, 1), float(np.mean(number))) for number in numbers], obliquity)
     sine = math.sin(obliquity)
     nutations = {}
@@ -268,7 +283,8 @@ def _planet(columns: list[Any], obliquity: float) -> Planet:
 
 def _satellites(body: Body) -> Satellites:
     """Masses and orbits of the satellites of a body as arrays."""
-    gm, a, i = np.array([(s.gm, s.a, s.i) for s in body.satellites]).T
+    rows = [[float(np.mean(number)) for number in (s.gm, s.a, s.i)] for s in body.satellites]
+    gm, a, i = np.array(rows).T
     return Satellites(gm, a, i)
 
 

@@ -16,13 +16,13 @@ from earthspin.bodies.body import SPIN_FIELDS
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span
 from earthspin.engine import Question, key, part
-from earthspin.errors import KernelError, SceneError, UndefinedError, Where
+from earthspin.errors import ApartError, KernelError, SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.ellipse_chains import EllipseChain, all_by_elements, ellipse_chains
+from earthspin.questions.ellipse_chains import EllipseChain, all_by_elements, cases, ellipse_chains
 from earthspin.sky import iau_models, sources
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.ephemeris import NAMED_KERNELS
-from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, rotate, spherical
+from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, TiltedPole, rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import SourceName
 from earthspin.units import FileName
@@ -79,8 +79,9 @@ class PerturbedBody(Question):
     averages: ClassVar[bool] = False
     #: Whether a body may have no perturbers.
     may_be_alone: ClassVar[bool] = False
-    #: Whether masses of perturbers may be labelled arrays.
+    #: Whether masses of perturbers, and orbits, poles and satellites, may be labelled arrays.
     array_masses: ClassVar[bool] = False
+    array_orbits: ClassVar[bool] = False
 
     def check(self) -> None:
         """Set default perturbers, and refuse a body or perturbers without required properties."""
@@ -96,8 +97,10 @@ class PerturbedBody(Question):
         if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "give at least one, like ['sun', 'moon']")
         for p in self.perturbers:
-            if p.labelled_field and not (self.array_masses and p.labelled_field == "gm"):
-                key_of_array = f"perturbers.{p.name}.{p.labelled_field}"
+            taken = {"gm"} if self.array_masses else set()
+            arrays = [name for name in p.arrays if name in p.UNITS and name not in taken]
+            if arrays:
+                key_of_array = f"perturbers.{p.name}.{arrays[0]}"
                 problem = "a perturber takes single numbers; run the question for each value"
                 raise self.error(key_of_array, "an array", problem)
             if names.count(p.name) > 1:
@@ -110,7 +113,11 @@ class PerturbedBody(Question):
         if twice := [name for name in names if name.casefold() in carried]:
             problem = f"it is among the satellites of {self.body.name}, which act already: "
             raise self.error("perturbers", twice[0], f"{problem}remove it, or set satellites = []")
-        all_by_elements(self.body, self.perturbers)  # refuses inconsistent elements
+        orbits, each = cases(self.body, self.perturbers)
+        if orbits and not self.array_orbits:
+            raise ApartError("this question takes one orbit, pole and set of satellites at a time")
+        for body, perturbers in each:
+            ellipse_chains(body, perturbers)  # refuses inconsistent elements
 
     def needed(self) -> tuple[str, ...]:
         """Names of the body's properties that the computation needs."""
@@ -244,7 +251,7 @@ class Sky:
         places = self.centre, *self.targets.values()
         if any(body.labelled for body in bodies) or not all(isinstance(p, int) for p in places):
             return None
-        if type(bodies[0].pole) not in (FixedPole, IAU2006Pole, MovingPole):
+        if type(bodies[0].pole) not in (FixedPole, TiltedPole, IAU2006Pole, MovingPole):
             return None
         return frozenset(self.provenance.items()), places, bodies, also
 
@@ -358,6 +365,7 @@ def _place(source: Source, name: str, chain: EllipseChain) -> Place:
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     """Determine for each body how its position is found: kernel, own trajectory or elements."""
+    body, perturbers = cases(body, perturbers)[1][0]  # of many orbits, the first
     alone = {p.name: EllipseChain(p) for p in perturbers}
     targets = alone | ellipse_chains(body, perturbers)
     for p in perturbers:

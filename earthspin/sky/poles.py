@@ -7,15 +7,16 @@ in the GCRS.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, EPSILON_0
 from earthspin.errors import UndefinedError, Where
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import FloatArray, Numeric
 from earthspin.sky import iau_models
 from earthspin.units import quantity
 
@@ -108,7 +109,7 @@ class Direction(NamedTuple):
         if not isinstance(pair, tuple) or len(pair) != 2:
             raise ValueError(pair)
         ra, dec = pair
-        if not (math.isfinite(ra) and abs(dec) <= math.pi / 2):
+        if not (np.all(np.isfinite(ra)) and np.all(np.abs(dec) <= math.pi / 2)):
             raise ValueError(pair)
         return cls(ra, dec)
 
@@ -138,12 +139,18 @@ class Direction(NamedTuple):
         return cls(math.atan2(y, x) % math.tau, math.atan2(z, math.hypot(x, y)))
 
     def __str__(self) -> str:
+        if any(map(np.ndim, self)):
+            return "right ascension and declination in arrays"
         ra, dec = (math.degrees(angle) for angle in self)
         return f"right ascension {ra:.5f} deg, declination {dec:.5f} deg"
 
     def vector(self) -> FloatArray:
         """Unit vector of the direction, shape (3,)."""
         return direction(*self)
+
+
+class OrbitNormal(Direction):
+    """Normal of an orbit that follows from the elements of the orbit."""
 
 
 class PoleModel(Protocol):
@@ -252,6 +259,45 @@ class FixedPole(Direction):
     ) -> FloatArray:
         """Matrix from the GCRS to the fixed equator of the body, shape (3, 3)."""
         return fixed_equator(self.vector(), self.orbit_normal(orbit))
+
+
+class TiltedPole(FixedPole):
+    """Pole that is given by the obliquity, and follows from it and from the normal of the orbit.
+
+    Attributes
+    ----------
+    obliquity : float
+        Angle from the normal of the orbit to the pole, rad.
+    equinox_of : FixedPole
+        Pole that has the same equinox; by default that of the ICRF.
+    """
+
+    obliquity: float
+    equinox_of: FixedPole
+
+    @classmethod
+    def at(
+        cls, obliquity: Numeric, equinox_of: FixedPole | None = None, orbit: Direction | None = None
+    ) -> Self:
+        """Create the pole of a body; without the normal of its orbit, the direction is open."""
+        equinox_of = equinox_of or FixedPole(0.0, math.pi / 2)
+
+        def tilted(angle: float, *normal_angles: float) -> Direction:
+            _, leaning, normal = equinox_of.orbit_axes(Direction(*normal_angles))
+            return Direction.along(math.cos(angle) * normal + math.sin(angle) * leaning)
+
+        pole = cls(*(equinox_of if orbit is None else of_each(tilted, obliquity, *orbit)))
+        pole.obliquity, pole.equinox_of = obliquity, equinox_of
+        return pole
+
+
+def of_each(direction: Callable[..., Direction], *values: Any) -> Direction:
+    """Direction that follows from numbers; for labelled arrays, the arrays of its two angles."""
+    if not any(hasattr(value, "dims") for value in values):
+        return direction(*values)
+    return Direction(
+        *xr.apply_ufunc(direction, *values, output_core_dims=[[], []], vectorize=True, join="exact")
+    )
 
 
 @dataclass(frozen=True)
@@ -531,34 +577,3 @@ def _swing(row: object, where: Where) -> PeriodicTerm:
     return PeriodicTerm(
         *(float(quantity(term, unit, where, example)) for term, unit, example in terms)
     )
-
-
-# --- poles as input -------------------------------------------------------------------------------
-
-
-class PoleInText:
-    """Input type for the pole of a body: two angles, a name, or a table of a moving pole."""
-
-    words, hint = "right ascension and declination", "tuple[float | str, float | str]"
-    form = '["... deg", "... deg"]'
-
-    def read(self, value: object, where: Where) -> object:
-        """Read the pole of a body: two angles (rad by default), a name, or a table."""
-        if isinstance(value, str) or hasattr(value, "of_the_iau"):
-            return value
-        if isinstance(value, Mapping):
-            return MovingPole.read(value, where)
-        angles = value if isinstance(value, (list, tuple)) else (value,)
-        if any(getattr(a, "ndim", 0) or isinstance(a, (list, tuple)) for a in angles):
-            raise where.error("an array", f"give one direction: {self.words}")
-        if not isinstance(value, (list, tuple)) or len(value) != 2:
-            raise where.error(value, f"give {self.words}")
-        return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in value)
-
-    def write(self, value: Direction | PoleModel) -> str | list[str] | dict[str, Any]:
-        """Convert a pole for scene files: to a name, two angles, or the table of a moving pole."""
-        if isinstance(value, MovingPole):
-            return value.write()
-        if isinstance(value, Direction):
-            return [f"{float(angle)!r} rad" for angle in value]
-        return str(value)

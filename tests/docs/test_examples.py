@@ -7,6 +7,7 @@ import sys
 import sysconfig
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -94,6 +95,28 @@ def test_a_source_of_positions(monkeypatch: pytest.MonkeyPatch) -> None:
     # 4.9e-8 measured, of sums over minutes
     gained = np.trapezoid(found.torque.sel(component="y"), dx=60)
     assert np.isclose(gained, given, rtol=2e-7, atol=0)
+
+
+def test_the_flyby_of_the_page_on_orbits() -> None:
+    """Energy and angular momentum of two bodies, and the deflection 2 asin(1/e), hold."""
+    page = (DOCS / "howto" / "orbits.md").read_text(encoding="utf-8")
+    cells = re.findall(r"```\{code-cell\} ipython3\n(.*?)```", page, flags=re.DOTALL)
+    names: dict[str, Any] = {"earthspin": earthspin, "MOON": earthspin.MOON, "__name__": __name__}
+    exec(next(cell for cell in cells if "class Hyperbola" in cell), names)
+    path, gm = names["path"], names["both"]
+    days = np.array([-30.0, -0.5, 0.0, 1e-3, 0.5, 30.0])
+    r, step = path.positions(days), 1e-5
+    v = (path.positions(days + step) - path.positions(days - step)) / (2 * step * 86400)
+    energy = np.sum(v * v, axis=1) / 2 - gm / np.linalg.norm(r, axis=1)
+    assert np.allclose(energy, path.speed**2 / 2, rtol=1e-6, atol=0)
+    momenta = np.cross(r, v)
+    assert np.allclose(momenta, momenta[2], rtol=1e-6, atol=1e-3 * np.abs(momenta).max())
+    assert np.linalg.norm(r, axis=1).min() == pytest.approx(2e8, rel=1e-12, abs=0)
+    turned = np.arccos(v[0] @ v[-1] / np.linalg.norm(v[0]) / np.linalg.norm(v[-1]))
+    e = 1 + path.nearest * path.speed**2 / gm
+    assert turned == pytest.approx(2 * np.arcsin(1 / e), rel=0.02, abs=0)
+    passing = names["day"].distance.sel(perturber="passing")
+    assert passing.min() == pytest.approx(2e8, rel=1e-9, abs=0)
 
 
 def test_the_scenes_of_the_page_on_skyfield(tmp_path: Path) -> None:

@@ -189,7 +189,7 @@ test_elements_that_cannot_be = refused(
     ({"a": "384399 km", "plane": "galaxy"}, "allowed: ecliptic, equator, icrf, orbit"),
     ({"a": "384399 km", "nodes": 1.0}, "did you mean 'node'"),
     ({"a": "384399 km", "i": "190 deg"}, "0 to 180 deg"),
-    ({"a": xr.DataArray([1.0], dims="x")}, "one number"),
+    ({"a": [1.0, 2.0]}, "one number"),
     call=lambda elements: earthspin.precession(perturbers=[MEAN_SUN, MOON.replace(orbit=elements)]),
 )
 
@@ -210,9 +210,6 @@ def test_orbits_that_do_not_fit_together() -> None:
         )
     with pytest.raises(BodyError, match="its reference plane"):
         PLANET.replace(orbit={"period": "40 d", "plane": "orbit"})
-    many = PLANET.replace(gm=xr.DataArray([4e15, 5e15], dims="case"))
-    with pytest.raises(SceneError, match="both a and period"):
-        earthspin.precession(body=many, perturbers=[STAR])
     with pytest.raises(SceneError, match="planets"):
         earthspin.pole("2000-01-01", "2000-02-01", "1 d", perturbers=BOTH, effects=["planets"])
     with pytest.raises(SceneError, match="error of its positions"):

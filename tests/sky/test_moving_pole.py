@@ -7,9 +7,10 @@ import pytest
 
 import earthspin
 from earthspin import MARS, SUN
+from earthspin.bodies.kinds import PoleInText
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.errors import EarthspinError, Where
-from earthspin.sky.poles import Direction, MovingPole, PoleInText, pole_of
+from earthspin.sky.poles import Direction, MovingPole, pole_of
 
 #: Neptune's, with one slow term.
 SLOW = MovingPole.published(
