@@ -14,7 +14,6 @@ import numpy as np
 from earthspin import tables
 from earthspin._lazy import xr
 from earthspin.engine.atomic_writes import as_path
-from earthspin.errors import Where
 from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.questions.long_term import LongTermSeries, long_term
 from earthspin.tables import BLANK, Meaning, Sheet
@@ -110,10 +109,6 @@ def read_solution(
     >>> print((past - laskar).longitude_of_perihelion.round(2).values)
     [0.01]
     """
-    if not (columns is None or isinstance(columns, str)):
-        raise Where("columns", "read_solution").error(
-            columns, "give one text, like 'epoch (kyr), obliquity (deg)'"
-        )
     frame = tables.is_frame(path)
     sheet = tables.of_frame(path) if frame else tables.split(as_path(path), SOLUTIONS)
     sheet.refuse_text()
@@ -188,11 +183,9 @@ def _converted(
             continue
         data[name] = sheet.converted(place, column, QUANTITIES[name].units, rows)
         data[name] = data[name] - 180.0 * (name != column.quantity)
-        if not np.isfinite(data[name]).all():
-            rest = [*meaning[:place], BLANK, *meaning[place + 1 :]]
-            remedy = f"fill it, leave out the row, or the column: {tables.typed(rest)}"
-            row = int(np.argmin(np.isfinite(data[name])))
-            raise sheet.error(f"{name} is missing", remedy, row)
+        rest = [*meaning[:place], BLANK, *meaning[place + 1 :]]
+        remedy = f"fill it, leave out the row, or the column: {tables.typed(rest)}"
+        sheet.refuse(~np.isfinite(data[name]), f"{name} is missing", remedy)
     if "epoch" not in data:
         raise sheet.error("it has no epoch", "epoch is needed, like 'epoch (kyr)'")
     return data

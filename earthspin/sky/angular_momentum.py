@@ -16,7 +16,7 @@ import numpy as np
 
 from earthspin import tables
 from earthspin.errors import SeriesError, nearest
-from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.numerics.arrays import Array, ComplexArray, FloatArray
 from earthspin.tables import Meaning, Sheet
 from earthspin.tables.layouts import ANGULAR_MOMENTUM
 
@@ -25,6 +25,10 @@ COMPONENTS = {"AAM": "atmosphere", "OAM": "ocean", "HAM": "hydrology", "SLAM": "
 #: Mass and motion terms, by which a component excites polar motion.
 TERMS = ("mass", "motion")
 _NAMES = ("mass1", "mass2", "motion1", "motion2")
+#: Row of a file: the place of the file in the list of files, its line, its date and both terms.
+_ROW = np.dtype(
+    [("file", int), ("line", int), ("mjd", float), ("mass", complex), ("motion", complex)]
+)
 #: Plausibility bound, rad: 20 arcsec, more than any observed value.
 LARGEST = 1e-4
 #: Tolerance for equal dates, d.
@@ -78,17 +82,6 @@ class AngularMomentum:
 
         middles = np.asarray(np.round(edges[:-1]) + 0.5, dtype=float)
         return AngularMomentum(middles, means(self.mass), means(self.motion))
-
-
-@dataclass(frozen=True)
-class _Row:
-    """Date, mass term and motion term of one row in a file, with the file and line number."""
-
-    file: Path
-    line: int
-    mjd: float
-    mass: complex
-    motion: complex
 
 
 def read_angular_momentum(
@@ -174,54 +167,49 @@ def _files(
 
 def _joined(files: list[Path], columns: str | None) -> AngularMomentum:
     """Join the rows of all files of one component in order of time, without repeated rows."""
-    rows = sorted((row for file in files for row in _rows(file, columns)), key=lambda row: row.mjd)
+    rows = np.concatenate([_rows(files, place, columns) for place in range(len(files))])
+    rows = rows[np.argsort(rows["mjd"], kind="stable")]
     if len(rows) < 2:
         raise SeriesError(files[0], f"it holds {len(rows)} rows of excitation")
-    unique = rows[:1]
-    for row in rows[1:]:
-        last = unique[-1]
-        if row.mjd > last.mjd + SAME_TIME:
-            unique.append(row)
-        elif (row.mass, row.motion) != (last.mass, last.motion):
-            problem = (
-                f"MJD {row.mjd:.3f} stands twice, in line {last.line} of '{last.file.name}' with "
-                "other numbers"
-            )
-            raise SeriesError(row.file, problem, "keep one of them", row.line)
-    mjd = np.array([row.mjd for row in unique])
-    steps = np.diff(mjd)
+    again = np.diff(rows["mjd"]) <= SAME_TIME
+    other = again & np.any([rows[term][1:] != rows[term][:-1] for term in TERMS], axis=0)
+    if other.any():
+        last, row = rows[np.argmax(other) :][:2]
+        place = f"line {last['line']} of '{files[last['file']].name}'"
+        problem = f"MJD {row['mjd']:.3f} stands twice, in {place} with other numbers"
+        raise SeriesError(files[row["file"]], problem, "keep one of them", int(row["line"]))
+    rows = rows[np.append(True, ~again)]
+    steps = np.diff(rows["mjd"])
     uneven = abs(steps - np.median(steps)) > SAME_TIME
-    if np.any(uneven):
-        row = unique[int(np.argmax(uneven)) + 1]
-        problem = f"the step changes before MJD {row.mjd:.3f}"
-        raise SeriesError(row.file, problem, "even steps are needed; is a file missing?", row.line)
-    return AngularMomentum(
-        mjd, np.array([row.mass for row in unique]), np.array([row.motion for row in unique])
-    )
+    if uneven.any():
+        row = rows[np.argmax(uneven) + 1]
+        problem = f"the step changes before MJD {row['mjd']:.3f}"
+        remedy = "even steps are needed; is a file missing?"
+        raise SeriesError(files[row["file"]], problem, remedy, int(row["line"]))
+    return AngularMomentum(rows["mjd"], rows["mass"], rows["motion"])
 
 
-def _rows(file: Path, columns: str | None) -> list[_Row]:
+def _rows(files: list[Path], place_of_file: int, columns: str | None) -> Array:
     """Rows of one file."""
-    sheet = tables.split(file)
+    sheet = tables.split(files[place_of_file])
     sheet.refuse_text()
     meaning = _meaning(sheet, columns)
     mjd = tables.dates_of(sheet, meaning)
-    if np.any(np.diff(mjd) < 0):
-        row = int(np.argmax(np.diff(mjd) < 0)) + 1
-        problem = f"MJD {mjd[row]:.3f} comes after {mjd[row - 1]:.3f}"
-        raise sheet.error(problem, "time runs backwards", row)
+    problem = "MJD {mjd:.3f} comes after {last:.3f}"
+    backwards = np.diff(mjd, prepend=-np.inf) < 0
+    sheet.refuse(backwards, problem, "time runs backwards", mjd=mjd, last=np.roll(mjd, 1))
     places = {column.quantity: place for place, column in enumerate(meaning)}
-    terms = []
+    rows = np.zeros(mjd.size, _ROW)
+    rows["file"], rows["line"], rows["mjd"] = place_of_file, sheet.lines, mjd
     for name in TERMS:
         chi = np.zeros(mjd.size, dtype=complex)
         for axis, factor in (("1", 1.0), ("2", 1j)):
             if (place := places.get(name + axis)) is not None:
                 chi += factor * sheet.converted(place, meaning[place]._replace(unit="rad"), "rad")
-        if not np.all(small := abs(chi) <= LARGEST):
-            row = int(np.argmin(small))
-            raise sheet.error(f"excitation {chi[row]:.3g} is no such number", "give radians", row)
-        terms.append(chi)
-    return [_Row(file, *row) for row in zip(sheet.lines, mjd, *terms, strict=True)]
+        problem = "excitation {chi:.3g} is no such number"
+        sheet.refuse(~(abs(chi) <= LARGEST), problem, "give radians", chi=chi)
+        rows[name] = chi
+    return rows
 
 
 def _meaning(sheet: Sheet, text: str | None) -> list[Meaning]:

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from earthspin import tables
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
@@ -187,8 +187,6 @@ def read_orbit(
             raise where.at(name).error(word, nearest(word, allowed))
     if not isinstance(body, str):
         raise where.at("body").error(body, "give the name of a body, like 'mars'")
-    if not (columns is None or isinstance(columns, str)):
-        raise where.at("columns").error(columns, "give one text, like 't (yr), k, h, q, p'")
     if tables.is_frame(path):
         sheet = tables.of_frame(path)
     elif not isinstance(path, (str, os.PathLike)) or not os.fspath(path).strip():
@@ -198,7 +196,8 @@ def read_orbit(
     else:
         sheet = tables.split(Path(path), ORBITS)
     meaning, declared = _meaning(sheet, columns, time, angles)
-    rows = _Rows.of_sheet(sheet, meaning).in_order()
+    rows = _Rows.of_sheet(sheet, meaning)
+    _check_steps(rows)
     _check_times(rows)
     _compare(rows, declared, axes, body)
     table = _table(rows, body, axes, frame)
@@ -300,7 +299,7 @@ def _compare(given: _Rows, declared: bool, axes: FloatArray, body: str) -> None:
     tables.refuse_other_meaning(given.sheet, meaning, _others(meaning), misfit)
     if not declared and 1 < misfit(meaning) < math.inf:
         problem = f"as {tables.typed(meaning)} its perihelion is not that of {body} today"
-        raise given.error(problem, "give the right columns='...', or body =")
+        raise given.sheet.error(problem, "give the right columns='...', or body =")
 
 
 def _others(meaning: list[Meaning]) -> Iterator[list[Meaning]]:
@@ -369,15 +368,12 @@ class _Rows:
         Columns by the names used here: times in the unit of the table, angles in radians.
     unit : str
         Unit of the times, d, yr or kyr.
-    numbers : array of int
-        Row of the table that each row was.
     """
 
     sheet: Sheet
     meaning: list[Meaning]
     columns: Table
     unit: str
-    numbers: NDArray[np.int64]
 
     @classmethod
     def of_sheet(cls, sheet: Sheet, columns: Sequence[Meaning]) -> _Rows:
@@ -385,22 +381,19 @@ class _Rows:
         places, meaning = _chosen(sheet, columns), [*columns]
         data = {name: sheet.column(place) for name, place in places.items()}
         for name, column in data.items():
-            if not np.isfinite(column).all():
-                row = int(np.argmin(np.isfinite(column)))
-                raise sheet.error(f"{name} is not a number", "fill it, or leave out rows", row)
+            problem, remedy = f"{name} is not a number", "fill it, or leave out rows"
+            sheet.refuse(~np.isfinite(column), problem, remedy)
         angles = {name: place for name, place in places.items() if name in _ANGLES}
-        if not all(meaning[place].unit for place in angles.values()):
-            unit = _unit_of(sheet, data)
+        if angles:
+            unit = _unit_of_angles(sheet, data, meaning[angles["node"]].unit)
             for place in angles.values():
                 meaning[place] = meaning[place]._replace(unit=meaning[place].unit or unit)
-        if angles:
-            _check_unit(sheet, data, meaning[angles["node"]].unit)
         data |= {name: sheet.converted(p, meaning[p], "rad") for name, p in angles.items()}
         time = meaning[places["t"]]
         if time.unit in TIMES:
-            return cls(sheet, meaning, data, time.unit, np.arange(data["t"].size))
+            return cls(sheet, meaning, data, time.unit)
         data["t"] = sheet.converted(places["t"], time, "yr")
-        return cls(sheet, meaning, data, "yr", np.arange(data["t"].size))
+        return cls(sheet, meaning, data, "yr")
 
     @property
     def times(self) -> FloatArray:
@@ -411,77 +404,67 @@ class _Rows:
         """Unit normals and eccentricity vectors, shape (n, 3) each."""
         return (_from_sines if "k" in self.columns else _from_elements)(self)
 
-    def error(self, problem: str, remedy: str = "", row: int | None = None) -> SeriesError:
-        """Build an error whose message names the file, and the line if a row is given."""
-        return self.sheet.error(problem, remedy, None if row is None else int(self.numbers[row]))
-
-    def in_order(self) -> _Rows:
-        """Return the rows in ascending time; refuse gaps, repeated times and too few rows."""
-        t = self.columns["t"]
-        if t.size < FEWEST:
-            raise self.error(f"{t.size} rows are too few", f"give {FEWEST} or more")
-        steps = np.diff(t) * (1 if t[-1] > t[0] else -1)
-        if np.any(steps == 0):
-            row = int(np.argmax(steps == 0)) + 1
-            raise self.error(f"time {t[row]:g} stands twice", "keep one of the rows", row)
-        if np.any(steps < 0):
-            row = int(np.argmax(steps < 0)) + 1
-            problem = f"time {t[row]:g} comes after {t[row - 1]:g}"
-            raise self.error(problem, "sort the rows by time", row)
-        usual = float(np.median(steps))
-        if np.any(steps > GAP * usual):
-            row = int(np.argmax(steps > GAP * usual)) + 1
-            problem = f"a gap between times {t[row - 1]:g} and {t[row]:g}; rows are {usual:g} apart"
-            raise self.error(problem, "fill it, or give a part without gaps", row)
-        if t[0] < t[-1]:
-            return self
-        columns = {name: column[::-1] for name, column in self.columns.items()}
-        return replace(self, columns=columns, numbers=self.numbers[::-1])
-
 
 def _table(rows: _Rows, body: str, axes: FloatArray, frame: object) -> OrbitTable:
-    times = rows.times
+    sheet, times = rows.sheet, rows.times
     n, e = rows.vectors()
-    _check_moves(rows, n, e)
-    present = np.array([np.interp(0.0, times, component) for component in n.T])
+    _check_moves(sheet, n, e)
+    order = slice(None, None, 1 if times[0] < times[-1] else -1)
+    present = np.array([np.interp(0.0, times[order], component) for component in n[order].T])
     if body == "earth":
-        _check_ecliptic(rows, present, axes, frame)
-    _check_body(rows, np.linalg.norm(e, axis=1), body)
-    n, e = n @ axes, e @ axes
+        _check_ecliptic(sheet, present, axes, frame)
+    _check_body(sheet, np.linalg.norm(e, axis=1), body)
+    times, n, e = times[order], n[order] @ axes, e[order] @ axes
     third = np.mean(n, axis=0)
     third /= np.linalg.norm(third)
     if np.min(n @ third) < 0.5:
-        raise rows.error("the orbit tips over by more than 60 degrees", "give a shorter part")
+        raise sheet.error("the orbit tips over by more than 60 degrees", "give a shorter part")
     first = np.cross(third, np.eye(3)[np.argmin(np.abs(third))])
     first /= np.linalg.norm(first)
     basis = np.stack([first, np.cross(third, first), third])
-    name = Path(rows.sheet.file).name
+    name = Path(sheet.file).name
     return fitted(body, times, n, e, basis, f"{name}, {'given axes' if frame is axes else frame}")
+
+
+def _check_steps(rows: _Rows) -> None:
+    """Refuse gaps, repeated times, rows out of order, and too few rows."""
+    sheet, t = rows.sheet, rows.columns["t"]
+    if t.size < FEWEST:
+        raise sheet.error(f"{t.size} rows are too few", f"give {FEWEST} or more")
+    steps = np.diff(t, prepend=np.nan) * (1 if t[-1] > t[0] else -1)  # from the row before
+    times = {"time": t, "last": np.roll(t, 1)}
+    sheet.refuse(steps == 0, "time {time:g} stands twice", "keep one of the rows", **times)
+    problem = "time {time:g} comes after {last:g}"
+    sheet.refuse(steps < 0, problem, "sort the rows by time", **times)
+    usual = float(np.nanmedian(steps))
+    problem = f"a gap between times {{last:g}} and {{time:g}}; rows are {usual:g} apart"
+    sheet.refuse(steps > GAP * usual, problem, "fill it, or give a part without gaps", **times)
 
 
 def _check_times(rows: _Rows) -> None:
     """Refuse times in another unit, and those without J2000.0."""
     times, unit = rows.times, rows.unit
-    step = float(np.median(np.diff(times)))
+    step = float(np.median(np.abs(np.diff(times))))
     if not CLOSEST <= step <= FARTHEST:
-        raise rows.error(
+        raise rows.sheet.error(
             f"with times in {unit} rows are {step / JULIAN_YEAR:.3g} yr apart, where 1 to 5000 yr "
             "can be used",
             f"is it another unit? time = {' or '.join(repr(u) for u in TIMES if u != unit)}",
         )
-    if not times[0] <= 0 <= times[-1]:
-        problem = f"it covers {times[0] / TIMES['kyr']:g} to {times[-1] / TIMES['kyr']:g} kyr"
-        raise rows.error(problem, "J2000.0, from which the axis starts, must be among the times")
+    first, last = np.min(times), np.max(times)
+    if not first <= 0 <= last:
+        problem = f"it covers {first / TIMES['kyr']:g} to {last / TIMES['kyr']:g} kyr"
+        raise rows.sheet.error(
+            problem, "J2000.0, from which the axis starts, must be among the times"
+        )
 
 
 def _from_sines(rows: _Rows) -> tuple[FloatArray, FloatArray]:
     """Unit normals and eccentricity vectors from the variables k, h, q, p, shape (n, 3) each."""
     k, h, q, p = (rows.columns[name] for name in ("k", "h", "q", "p"))
     half = q * q + p * p  # squared sine of half the inclination
-    if np.any(half >= 1):
-        problem = "sin(inc/2) is 1 or more"
-        raise rows.error(problem, "are q and p angles?", int(np.argmax(half >= 1)))
-    _check_eccentricity(rows, np.hypot(k, h))
+    rows.sheet.refuse(half >= 1, "sin(inc/2) is 1 or more", "are q and p angles?")
+    _check_eccentricity(rows.sheet, np.hypot(k, h))
     c = 2 * np.sqrt(1 - half)
     normal = np.stack([c * p, -c * q, 1 - 2 * half], axis=1)
     # axes in the plane of the orbit from which longitudes count
@@ -493,11 +476,10 @@ def _from_sines(rows: _Rows) -> tuple[FloatArray, FloatArray]:
 def _from_elements(rows: _Rows) -> tuple[FloatArray, FloatArray]:
     """Unit normals and eccentricity vectors from Keplerian elements, shape (n, 3) each."""
     e = rows.columns["e"]
-    _check_eccentricity(rows, e)
+    _check_eccentricity(rows.sheet, e)
     tilt, node = rows.columns["inc"], rows.columns["node"]
-    if np.any((tilt < 0) | (tilt > math.pi)):
-        row = int(np.argmax((tilt < 0) | (tilt > math.pi)))
-        raise rows.error("an inclination lies between 0 and 180 degrees", "", row)
+    outside = (tilt < 0) | (tilt > math.pi)
+    rows.sheet.refuse(outside, "an inclination lies between 0 and 180 degrees")
     argument = (
         rows.columns["argument"] if "argument" in rows.columns else rows.columns["varpi"] - node
     )
@@ -508,48 +490,39 @@ def _from_elements(rows: _Rows) -> tuple[FloatArray, FloatArray]:
     return normal, e[:, np.newaxis] * to
 
 
-def _check_eccentricity(rows: _Rows, e: FloatArray) -> None:
-    wrong = ~((e >= 0) & (e < 1))
-    if wrong.any():
-        row = int(np.argmax(wrong))
-        raise rows.error(f"an eccentricity of {e[row]:g}", "it lies between 0 and 1", row)
+def _check_eccentricity(sheet: Sheet, e: FloatArray) -> None:
+    outside = ~((e >= 0) & (e < 1))
+    sheet.refuse(outside, "an eccentricity of {e:g}", "it lies between 0 and 1", e=e)
 
 
-def _unit_of(sheet: Sheet, data: Table) -> str:
-    """Detect from the largest value whether the angles in a table are in degrees or radians."""
-    turning = [data[name] for name in _ANGLES[1:] if name in data]
-    largest = max(float(np.max(np.abs(column))) for column in turning)
-    if np.max(data["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
-        return "deg"
-    if largest <= 2 * math.pi * (1 + 1e-6):
-        return "rad"
-    problem = f"angles reach {largest:g}: degrees or radians that go on past a turn?"
-    raise sheet.error(problem, "say which: angles = 'deg' or 'rad'")
-
-
-def _check_unit(sheet: Sheet, data: Table, unit: str) -> None:
-    """Refuse a declared unit of angles that the values contradict."""
+def _unit_of_angles(sheet: Sheet, data: Table, declared: str) -> str:
+    """Unit of the angles in a table: as declared, unless their values contradict it, or by size."""
     turning = [data[name] for name in _ANGLES[1:] if name in data]
     largest = max(float(np.max(np.abs(column))) for column in turning)
     jump = max(float(np.max(np.abs(np.diff(column)), initial=0.0)) for column in turning)
-    if unit == "rad" and (np.max(data["inc"]) > math.pi or 180 < jump <= 360.001):
+    steep, within_turn = np.max(data["inc"]) > math.pi, largest <= 2 * math.pi * (1 + 1e-6)
+    if declared == "rad" and (steep or 180 < jump <= 360.001):
         problem = f"angles reach {largest:g}: these are degrees, not radians"
         raise sheet.error(problem, "give angles = 'deg'")
-    if unit == "deg" and largest <= 2 * math.pi * (1 + 1e-6) and jump > 1.5 * math.pi:
+    if declared == "deg" and within_turn and jump > 1.5 * math.pi:
         problem = f"angles go round at {largest:.4g}: these are radians, not degrees"
         raise sheet.error(problem, "give angles = 'rad'")
+    if not declared and not steep and not within_turn and largest > 360.001:
+        problem = f"angles reach {largest:g}: degrees or radians that go on past a turn?"
+        raise sheet.error(problem, "say which: angles = 'deg' or 'rad'")
+    return declared or ("rad" if within_turn and not steep else "deg")
 
 
-def _check_moves(rows: _Rows, normal: FloatArray, eccentricity: FloatArray) -> None:
+def _check_moves(sheet: Sheet, normal: FloatArray, eccentricity: FloatArray) -> None:
     for name, vectors in (("the orbit's plane", normal), ("its perihelion", eccentricity)):
         moves = np.linalg.norm(np.diff(vectors, axis=0), axis=1)
         if moves.max() > LARGEST_MOVE:
             problem = f"{name} jumps by {moves.max():.2g} from one row to the next"
             remedy = "are time or angles in other units? angles = 'deg' or 'rad'"
-            raise rows.error(problem, remedy, int(np.argmax(moves)) + 1)
+            raise sheet.error(problem, remedy, int(np.argmax(moves)) + 1)
 
 
-def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: object) -> None:
+def _check_ecliptic(sheet: Sheet, normal: FloatArray, axes: FloatArray, frame: object) -> None:
     """Refuse an orbit of the Earth far from the ecliptic at J2000.0; suggest another frame."""
 
     def lean(frame_axes: FloatArray) -> float:
@@ -560,20 +533,19 @@ def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: ob
         return
     fits = [word for word in FRAMES if lean(axes_of(word)) <= NEAR_ECLIPTIC]
     name = frame if isinstance(frame, str) else "the axes given"
-    raise rows.error(
+    raise sheet.error(
         f"in {name} the Earth's orbit leans {math.degrees(lean(axes)):.2g} deg on the ecliptic at "
         "J2000.0",
         f"it fits frame = '{fits[0]}'" if fits else "other axes or angles? or another body: body =",
     )
 
 
-def _check_body(rows: _Rows, e: FloatArray, body: str) -> None:
+def _check_body(sheet: Sheet, e: FloatArray, body: str) -> None:
     """Refuse eccentricities far above the largest one in the package's orbit table of the body."""
     largest = _largest_eccentricity(body)
-    if largest is not None and np.any(e > MOST_ECCENTRIC * largest):
-        row = int(np.argmax(e > MOST_ECCENTRIC * largest))
-        problem = f"an eccentricity of {e[row]:g}, where that of {body} stays below {largest:.2g}"
-        raise rows.error(problem, "is it another body? body =", row)
+    if largest is not None:
+        problem = f"an eccentricity of {{e:g}}, where that of {body} stays below {largest:.2g}"
+        sheet.refuse(e > MOST_ECCENTRIC * largest, problem, "is it another body? body =", e=e)
 
 
 @cache

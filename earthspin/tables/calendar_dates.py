@@ -68,19 +68,18 @@ def _from_calendar(sheet: Sheet, values: dict[str, FloatArray]) -> FloatArray:
     expected = np.asarray(np.array(days) + hours / 24)
     if mjd is None:
         return expected
-    if not np.all(same := abs(mjd - expected) <= _SAME_DATE):
-        row = int(np.argmin(same))
-        problem = f"MJD {mjd[row]:.2f} differs from the calendar date, MJD {expected[row]:.2f}"
-        raise sheet.error(problem, "the two must agree; is a column lost?", row)
+    problem = "MJD {mjd:.2f} differs from the calendar date, MJD {expected:.2f}"
+    remedy = "the two must agree; is a column lost?"
+    differs = ~(abs(mjd - expected) <= _SAME_DATE)
+    sheet.refuse(differs, problem, remedy, mjd=mjd, expected=expected)
     return mjd
 
 
 def _from_besselian_years(sheet: Sheet, year: FloatArray) -> FloatArray:
     """Dates of Besselian years, accurate to the 1 mas resolution of tables of the pole."""
+    remedy = f"it lies in {_FIRST_YEAR} to {_LAST_YEAR}; a table by MJD has 29 columns"
     outside = (year < _FIRST_YEAR) | (year > _LAST_YEAR)
-    if outside.any():
-        remedy = f"it lies in {_FIRST_YEAR} to {_LAST_YEAR}; a table by MJD has 29 columns"
-        raise sheet.error(f"the year is {year[outside][0]:g}", remedy, int(np.argmax(outside)))
+    sheet.refuse(outside, "the year is {year:g}", remedy, year=year)
     return np.asarray(15019.81352 + (year - 1900.0) * 365.242198781)
 
 

@@ -22,7 +22,7 @@ GOOD, BETTER = 0.1, 3.0
 
 
 def refuse_other_meaning(
-    sheet: Sheet, columns: Columns, others: Iterable[Columns], misfit: Misfit, more: bool = False
+    sheet: Sheet, columns: Columns, others: Iterable[Columns], misfit: Misfit
 ) -> None:
     """Refuse columns that are far from what is known if another meaning of them is near.
 
@@ -33,8 +33,6 @@ def refuse_other_meaning(
     others : iterable of list of Meaning
         Other meanings of the columns.
     misfit : callable
-    more : bool
-        Whether the table has more columns.
 
     Raises
     ------
@@ -47,9 +45,8 @@ def refuse_other_meaning(
     bound = 1 / BETTER if math.isinf(distance) else min(1.0, distance / BETTER)
     other = next((other for other in others if misfit(other) <= bound), None)
     if other is not None:
-        key = typed(columns, more)
-        problem = f"with {key} its numbers are far from what is known"
-        raise sheet.error(problem, f"they agree with {typed(other, more)}; give what is right")
+        problem = f"with {typed(columns)} its numbers are far from what is known"
+        raise sheet.error(problem, f"they agree with {typed(other)}; give what is right")
 
 
 def guessed(

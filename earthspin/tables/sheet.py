@@ -76,6 +76,13 @@ class Sheet:
             return SeriesError(self.file, f"row {row}: {problem}", remedy)
         return SeriesError(self.file, problem, remedy, self.lines[row])
 
+    def refuse(self, wrong: BoolArray, problem: str, remedy: str = "", **columns: Array) -> None:
+        """Refuse the first wrong row, if any; the problem names its values by ``{name}``."""
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            values = {name: column[row] for name, column in columns.items()}
+            raise self.error(problem.format(**values), remedy, row)
+
     def only(self, kept: Sequence[bool]) -> Sheet:
         """Return the table with a selection of its rows."""
         rows = [row for row, keep in zip(self.rows, kept, strict=True) if keep]
@@ -146,6 +153,8 @@ class Sheet:
         SeriesError
             If a quantity is none of those that are allowed, or their number is another.
         """
+        if not isinstance(text, str):
+            raise self.error(f"columns={text!r}", "give one text, like 't (yr), k, h, q, p'")
         meaning = declared(text)
         names = [column.quantity for column in meaning if column.quantity]
         for name in names:
