@@ -52,11 +52,13 @@ _OPTIONS = (
     ),
 )  # fmt: skip
 _TIMES = ("kyr", "kyr ago", "yr", "yr ago", "Myr", "Myr ago")
+#: Names of columns with years of the calendar, and numbers that may be such years.
+_CALENDAR, _RECENT = r"(calendar\W?)?years?\W*(AD|CE)?\W*", (1000.0, 3000.0)
 #: Quantities by words in headers, for messages only.
 _WORDS = {
     r"ecc|^e$": "eccentricity", r"obl|tilt|^eps": "obliquity", r"perigee": _PERIGEE,
     r"perih|varpi|omega|lpe|angle": "longitude_of_perihelion", r"prec": "climatic_precession",
-    r"time|age|epoch|^t$|yr|\bk?a\b|bp": "epoch",
+    r"time|age|epoch|^t$|yr|year|\bk?a\b|bp": "epoch",
 }  # fmt: skip
 
 
@@ -112,7 +114,6 @@ def read_solution(
     frame = tables.is_frame(path)
     sheet = tables.of_frame(path) if frame else tables.split(as_path(path), SOLUTIONS)
     sheet.refuse_text()
-    sheet.refuse_other_lengths()
     known = (*QUANTITIES, _PERIGEE)
     meaning = sheet.as_declared(columns, known) if columns else _understood(sheet)
     data = _converted(sheet, meaning)
@@ -156,7 +157,7 @@ def _understood(sheet: Sheet) -> list[Meaning]:
     if sheet.names:
         meaning = [tables.column_of(name) for name in sheet.names]
         if all(column.quantity in (*QUANTITIES, _PERIGEE, "") for column in meaning):
-            return meaning
+            return sheet.as_declared(tables.written(meaning))
         raise sheet.not_understood(_suggested(sheet))
     readings = [tables.declared(layout.columns) for layout in SOLUTIONS if not layout.head]
     for meaning in readings:
@@ -207,6 +208,8 @@ def _misfit(sheet: Sheet, meaning: Sequence[Meaning], bodies: Sequence[str] = KN
         place = [column.quantity for column in meaning].index("epoch")
         factor, origin = meaning[place].conversion("yr")
         near = abs(factor * sheet.column(place) + origin) <= NEAR
+        if abs(factor) == 1 and _are_calendar_years(sheet, place):
+            return math.inf
         data = _converted(sheet, meaning, near)
     except ValueError:  # a column of text is one, too
         return math.inf
@@ -221,6 +224,13 @@ def _misfit(sheet: Sheet, meaning: Sequence[Meaning], bodies: Sequence[str] = KN
         return float(np.median(abs(off))) / BOUNDS[name]
 
     return min(max(misfit(body, name) for name in names) for body in bodies)
+
+
+def _are_calendar_years(sheet: Sheet, place: int) -> bool:
+    """Return True if a column may hold years of the calendar, 2000 more than epochs in years."""
+    named = bool(sheet.names) and re.fullmatch(_CALENDAR, sheet.names[place].strip(), re.IGNORECASE)
+    numbers, (first, last) = sheet.column(place), _RECENT
+    return bool(named) or bool(np.all((numbers > first) & (numbers < last)))
 
 
 def _guesses(
@@ -256,6 +266,10 @@ def _suggested(sheet: Sheet) -> list[Meaning]:
     by_words = [_by_words(sheet, place) for place in range(sheet.width)]
     times = [place for place, column in enumerate(by_words) if column.quantity == "epoch"]
     time, unit = (times[0], by_words[times[0]].unit) if times else (0, "kyr")
+    if times and _are_calendar_years(sheet, time):
+        problem = f"its column '{sheet.names[time]}' may hold years of the calendar"
+        remedy = "epochs count from J2000.0: subtract 2000, and name the column 'epoch (yr)'"
+        raise sheet.error(problem, remedy)
     places = [place for place in range(sheet.width) if place != time]
     _, meaning = max(_guesses(sheet, places, time, unit), key=lambda guess: guess[0])
     if not meaning[time].quantity:

@@ -25,7 +25,7 @@ from earthspin.questions import reasons, time_axes
 from earthspin.sky import eop
 from earthspin.sky.eop import GivenSeries, PoleSeries
 from earthspin.sky.pole_tables import NAMES
-from earthspin.tables import DATES, column_of, is_frame, is_table, places, series_of
+from earthspin.tables import DATES, FRAME, column_of, is_frame, is_table, places, series_of
 from earthspin.units import FileName, Plain, Text, pack, unpack
 from earthspin.wobble.excitation import pole_of
 
@@ -222,7 +222,7 @@ def _labelled(table: Any) -> Any:
     names = [str(name) for name in frame.columns]
     time = _times_of(frame, names)
     attributes = getattr(table, "attrs", {})
-    quantities = {place: quantity for quantity, place in places(names, _COLUMNS).items()}
+    quantities = {place: quantity for quantity, place in places(FRAME, names, _COLUMNS).items()}
     columns = {}
     for place, name in enumerate(names):
         column, values = column_of(name), series_of(frame, place).to_numpy()
@@ -242,7 +242,7 @@ def _times_of(frame: Any, names: list[str]) -> NDArray[np.datetime64]:
     SceneError
         If there are none.
     """
-    known = places(names, DATES)
+    known = places(FRAME, names, DATES)
     for place, name in enumerate(names):
         column = series_of(frame, place)
         kind = str(column.dtype)

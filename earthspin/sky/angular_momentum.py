@@ -224,7 +224,7 @@ def _meaning(sheet: Sheet, text: str | None) -> list[Meaning]:
         return sheet.as_declared(text, (*tables.DATES, *_NAMES))
     known = [tables.declared(layout.columns) for layout in ANGULAR_MOMENTUM]
     meaning = next((columns for columns in known if len(columns) == sheet.width), None)
-    dates = tables.places(sheet.names, {"mjd": tables.DATES["mjd"]})
+    dates = tables.places(sheet.file, sheet.names, {"mjd": tables.DATES["mjd"]})
     if meaning is None:
         remedy = "8 or 11 are expected; name them, like columns='mjd, mass1, mass2, ...'"
         raise sheet.error(f"{sheet.width} columns", remedy, 0)
@@ -232,5 +232,4 @@ def _meaning(sheet: Sheet, text: str | None) -> list[Meaning]:
         words = [tables.BLANK] * sheet.width
         words[dates["mjd"]] = Meaning("mjd")
         raise sheet.not_understood(words)
-    sheet.refuse_other_lengths()
     return meaning

@@ -35,8 +35,6 @@ from earthspin.tables import Meaning, Sheet
 
 #: J2000.0 as a modified Julian date.
 MJD = J2000_JD - 2400000.5
-#: Layouts that can be named.
-KINDS = ("c04", "c01", "finals2000A")
 #: First and last modified Julian date, and those of a whole table.
 _Interval = tuple[float, float]
 ALL: _Interval = (-math.inf, math.inf)
@@ -255,11 +253,8 @@ def _read(
             raise SeriesError(_GIVEN, problem, "rename the columns of the table instead")
         return _of_given(path, pair, span)
     file = file_of(path)
-    if kind not in (None, *KINDS):
-        raise SeriesError(file, f"kind {kind!r} is unknown", f"allowed: {', '.join(KINDS)}")
     if kind and columns:
         raise SeriesError(file, "kind and columns are both given", "leave out one of them")
-    tables.lines_of(file)  # refuses what cannot be read
     return _of_file((file, tables.checksum(file), kind, columns, pair), span)
 
 

@@ -227,7 +227,6 @@ def _meaning(
             problem = f"{sheet.width} columns without names are no known layout"
             raise sheet.error(problem, "name them, like columns='t (yr), k, h, q, p'")
         meaning = tables.declared(layout.columns)
-    sheet.refuse_other_lengths()
     places = _chosen(sheet, meaning)
     units = {"t": time or "", **dict.fromkeys(_ANGLES, angles or "")}
     for name, place in places.items():
@@ -248,7 +247,7 @@ def _meaning(
 def _chosen(sheet: Sheet, meaning: Sequence[Meaning]) -> dict[str, int]:
     """Return the column index of each orbital element, found by the column names."""
     names = [column.quantity for column in meaning]
-    places = tables.places(names, NAMES)
+    places = tables.places(sheet.file, names, NAMES)
     if places.get("node") == places.get("argument") and "node" in places:
         del places["argument"]
     if set(LA2010) <= set(places):

@@ -52,7 +52,8 @@ class PoleColumns(NamedTuple):
     name : str
     columns : list of Meaning
     declared : bool
-        Whether the user, a header or a known layout declares them, and not their number.
+        Whether the user, a header or a known layout declares them, and not their number. Decimal
+        years are declared by the user, or by the header of C01.
     """
 
     name: str
@@ -85,24 +86,24 @@ def split(
         allowed = (*tables.DATES, *NAMES, "type")
         return sheet, PoleColumns(NAMED, sheet.as_declared(columns, allowed))
     if layout := sheet.layout:
-        sheet.refuse_other_lengths("" if layout.edges else layout.columns)
+        if not tables.fits(layout.columns, sheet.width):
+            problem = f"{sheet.width} columns; {layout.name} has another number"
+            raise sheet.error(problem, "is the file complete?", 0)
         return sheet, PoleColumns(layout.name, tables.declared(layout.columns))
-    if by_names := _by_names(sheet):
-        sheet.refuse_other_lengths()
+    if by_names := _by_names(sheet, kind):
         return sheet, by_names
     for layout in _without_header(sheet, kind):
         if tables.fits(layout.columns, sheet.width):
-            sheet.refuse_other_lengths()
             meaning = tables.declared(layout.columns)
             declared = kind is not None or layout is published.C01_BY_MJD
             return sheet, PoleColumns(layout.name, meaning, declared)
     raise _unknown(sheet, kind, known)
 
 
-def _by_names(sheet: Sheet) -> PoleColumns | None:
+def _by_names(sheet: Sheet, kind: str | None) -> PoleColumns | None:
     """Columns by the names in the header; None if these have no date or no coordinates."""
-    places = tables.places(sheet.names, NAMES)
-    dates = tables.places(sheet.names, tables.DATES)
+    places = tables.places(sheet.file, sheet.names, NAMES)
+    dates = tables.places(sheet.file, sheet.names, tables.DATES)
     dated = {"mjd", "jd", "date", "year"} & {*dates}
     if not (dated and {"x", "y", "dx", "dy"} & {*places}):
         return None
@@ -114,8 +115,11 @@ def _by_names(sheet: Sheet) -> PoleColumns | None:
     for quantity, place in dates.items():
         columns[place] = Meaning(quantity)
     names = {NAMED: True, "c04.csv": "x_pole" in sheet.names, "EOP-All.csv": "DAT" in sheet.names}
-    names |= {"finals2000A.csv": final, "c01": {"year"} == {*dates}}
-    return PoleColumns(next(n for n in reversed(names) if names[n]), columns)
+    by_year = {"year"} == {*dates}
+    names |= {"finals2000A.csv": final, "c01": by_year}
+    name = next(n for n in reversed(names) if names[n])
+    published_c01 = "x_er" in sheet.names
+    return PoleColumns(name, columns, declared=bool(kind) or published_c01 or not by_year)
 
 
 def _without_header(sheet: Sheet, kind: str | None) -> Sequence[published.TableLayout]:
@@ -138,8 +142,8 @@ def _unknown(sheet: Sheet, kind: str | None, known: Callable[[], FloatArray]) ->
         return sheet.error(f"its {sheet.width} columns are not those of {kind}", "another kind?", 0)
     guess = guessed(sheet, known())
     if sheet.names:
-        names, words = tables.places(sheet.names, tables.DATES | NAMES), [BLANK] * sheet.width
-        for name, place in names.items():
+        words = [BLANK] * sheet.width
+        for name, place in tables.places(sheet.file, sheet.names, tables.DATES | NAMES).items():
             words[place] = Meaning(name, "arcsec" if name in NAMES else "")
         more = "" if guess else f"(x and y are needed), or {AS_PANDAS}"
         return sheet.not_understood(guess or words, more)
@@ -217,7 +221,7 @@ def rows_of(sheet: Sheet, table: PoleColumns, pair: Coordinates) -> FloatArray:
 def check(sheet: Sheet, table: PoleColumns, mjd: FloatArray, known: FloatArray) -> None:
     """Refuse x, y that agree with the observed pole only in another meaning.
 
-    Columns that only their number tells must agree with it as they are.
+    Columns that only their number tells must agree with it as they are, and so must decimal years.
 
     Parameters
     ----------
@@ -239,10 +243,14 @@ def check(sheet: Sheet, table: PoleColumns, mjd: FloatArray, known: FloatArray) 
 
     tables.refuse_other_meaning(sheet, table.columns, _others(table.columns), misfit)
     distance = misfit(table.columns)
-    if not table.declared and distance > OTHER_POLE:
-        problem = f"as a table {table.name} its x, y are {distance * SAME_POLE:.2g} arcsec from"
-        remedy = f"give kind='{table.name}' if they are simulated, or columns='mjd, ...'"
-        raise sheet.error(f"{problem} finals2000A (median)", remedy)
+    dated = "mjd" in [column.quantity for column in table.columns]
+    if table.declared or distance <= OTHER_POLE or (math.isnan(distance) and dated):
+        return
+    problem = f"as a table {table.name} its x, y are {distance * SAME_POLE:.2g} arcsec from"
+    if math.isnan(distance):
+        problem = f"as a table {table.name} by years it has fewer than {FEWEST} days of"
+    remedy = f"give kind='{table.name}' if that is right, or columns='mjd, ...'"
+    raise sheet.error(f"{problem} finals2000A", remedy)
 
 
 def _misfit(sheet: Sheet, mjd: FloatArray, columns: Sequence[Meaning], known: FloatArray) -> float:
@@ -288,7 +296,7 @@ def guessed(sheet: Sheet, known: FloatArray) -> list[Meaning] | None:
         def misfit(columns: Sequence[Meaning], mjd: FloatArray = mjd) -> float:
             try:
                 return _misfit(sheet, mjd, columns, known)
-            except (SeriesError, IndexError):  # text, or rows of different length
+            except SeriesError:  # text
                 return math.nan
 
         _, meaning = tables.guessed(blank, range(sheet.width), [time], options, misfit)

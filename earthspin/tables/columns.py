@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from earthspin.errors import SeriesError
 from earthspin.units import COMMON, time_scale
 
 #: Names in a table for units, and units of angles that are no units of `units.COMMON`: the unit of
@@ -100,23 +101,35 @@ def fits(text: str, width: int) -> bool:
     return count == width or (text.strip().endswith(MORE) and count < width)
 
 
-def places(names: Sequence[str], vocabulary: Mapping[str, Sequence[str]]) -> dict[str, int]:
+def places(
+    file: object, names: Sequence[str], vocabulary: Mapping[str, Sequence[str]]
+) -> dict[str, int]:
     """Place of each quantity among names of columns; equal case goes before other case.
 
     Parameters
     ----------
+    file : object
+        File of the table, for messages.
     names : sequence of str
-        Names, with or without units.
+        Names, with or without units, which pandas may have numbered.
     vocabulary : mapping of str to sequence of str
         Names, in lower case or with their own case, of each quantity.
+
+    Raises
+    ------
+    SeriesError
+        If two columns have the name of a quantity.
     """
     bare = [re.sub(r"\.\d+$", "", column_of(name).quantity) for name in names]
     found = {}
     for quantity, words in vocabulary.items():
         exact = [place for place, name in enumerate(bare) if name in words]
         loose = [place for place, name in enumerate(bare) if name.lower() in words]
-        if exact or loose:
-            found[quantity] = (exact or loose)[0]
+        for place in (exact or loose)[:1]:
+            if bare.count(bare[place]) > 1:
+                problem = f"its header has '{bare[place]}' twice"
+                raise SeriesError(file, problem, "rename one, or name all in columns='...'")
+            found[quantity] = place
     return found
 
 

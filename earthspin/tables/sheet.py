@@ -134,17 +134,6 @@ class Sheet:
             remedy = "correct it, or begin a comment with #"
             raise SeriesError(self.file, problem, remedy, self.text[0])
 
-    def refuse_other_lengths(self, columns: str = "") -> None:
-        """Refuse rows with another number of cells than the first row, or than declared."""
-        if self.is_frame:
-            return
-        count = len(declared(columns)) if columns and not columns.endswith("...") else self.width
-        for row, cells in enumerate(self.rows):
-            if len(cells) != count:
-                last = row == len(self.rows) - 1 > 0
-                remedy = "is the file cut off?" if last else "is a column lost?"
-                raise self.error(f"{len(cells)} columns; {count} are expected", remedy, row)
-
     def as_declared(self, text: str, allowed: Collection[str] = ()) -> list[Meaning]:
         """Return the columns that the user declares, one for each column of the table.
 
@@ -165,7 +154,6 @@ class Sheet:
         if not fits(text, self.width):
             problem = f"{self.width} columns, of which {len(meaning)} are named"
             raise self.error(problem, f"name each, leave names empty, or end with '{MORE}'")
-        self.refuse_other_lengths(text)
         return [*meaning, *[BLANK] * (self.width - len(meaning))]
 
     def not_understood(self, columns: Sequence[Meaning], needed: str = "") -> SeriesError:
@@ -215,7 +203,7 @@ def split(file: Path, layouts: Sequence[TableLayout] = ()) -> Sheet:
     Raises
     ------
     SeriesError
-        If the file cannot be read, or holds no rows.
+        If the file cannot be read, holds no rows, or rows of different length.
     """
     lines = text_of.lines_of(file)
     start = next((place for place, line in enumerate(lines) if text_of.is_row(line)), len(lines))
@@ -231,7 +219,12 @@ def split(file: Path, layouts: Sequence[TableLayout] = ()) -> Sheet:
     mark = text_of.delimiter_of(rows[0])
     cells = text_of.cells_of(rows, mark)
     cells, names = _cells_and_names(cells, head, mark)
-    return Sheet(file, words, names, cells, numbers, text, layout)
+    sheet = Sheet(file, words, names, cells, numbers, text, layout)
+    other = np.array([len(row) != sheet.width for row in cells])
+    remedy = "is a column lost?" if other[:-1].any() else "is the file cut off?"
+    count = {"count": np.array([len(row) for row in cells])}
+    sheet.refuse(other, f"{{count}} columns; {sheet.width} are expected", remedy, **count)
+    return sheet
 
 
 def _begins(layout: TableLayout, words: str, first: str) -> bool:

@@ -37,17 +37,25 @@ def lines_of(file: Path) -> list[str]:
     SeriesError
         If the file cannot be read, or holds no text.
     """
-    if problem := no_plain_file(file):
-        raise SeriesError(file, problem)
-    try:
-        data = file.read_bytes()
-        data = gzip.decompress(data) if data.startswith(_GZIP) else data
-    except (OSError, EOFError, zlib.error) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise SeriesError(file, f"it cannot be read: {reason}") from None
+    data = _bytes_of(file)
+    if data.startswith(_GZIP):
+        try:
+            data = gzip.decompress(data)
+        except (OSError, EOFError, zlib.error) as error:
+            raise SeriesError(file, f"it cannot be read: {error}") from None
     foreign.refuse(file, data.removeprefix(codecs.BOM_UTF8))
     wide = data.startswith(_UTF16)
     return data.decode("utf-16" if wide else "utf-8-sig", errors="replace").splitlines()
+
+
+def _bytes_of(file: Path) -> bytes:
+    """Read a file, or refuse what is none."""
+    if problem := no_plain_file(file):
+        raise SeriesError(file, problem)
+    try:
+        return file.read_bytes()
+    except OSError as error:
+        raise SeriesError(file, f"it cannot be read: {error.strerror or error}") from None
 
 
 def is_table(head: bytes) -> bool:
@@ -67,7 +75,7 @@ def is_table(head: bytes) -> bool:
 
 def checksum(file: Path) -> str:
     """SHA-256 hash of an input file, stored in results to identify the file."""
-    return hashlib.sha256(file.read_bytes()).hexdigest()
+    return hashlib.sha256(_bytes_of(file)).hexdigest()
 
 
 def is_number(word: str) -> bool:

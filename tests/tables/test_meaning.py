@@ -115,6 +115,16 @@ def test_headers_that_are_not_understood(file: Path, header: str, columns: str) 
     assert earthspin.read_solution(file, columns=columns).epoch.values[0] < -3999
 
 
+@pytest.mark.parametrize("header", ["year,ecc\n", "time (yr),ecc\n", "Year (CE),ecc\n", ""])
+def test_years_of_the_calendar_are_not_offered_as_epochs(file: Path, header: str) -> None:
+    """The year 2000 is epoch 0: by as many years is a reading off that has epochs for years."""
+    rows = [f"{year},{0.01670909 - 4.2e-7 * (year - 2000)}" for year in range(1900, 2101, 20)]
+    file.write_text(header + "\n".join(rows))
+    with pytest.raises(SeriesError, match="subtract 2000" if header else "name them") as error:
+        earthspin.read_solution(file)
+    assert "columns='epoch (yr)" not in str(error.value)
+
+
 def test_a_missing_number_is_named_with_the_columns_without_it(file: Path) -> None:
     file.write_text("epoch (kyr),eccentricity,obliquity (deg)\n-1,NA,23.57\n0,0.0167,23.44\n")
     columns = offered(lambda: earthspin.read_solution(file))
@@ -211,6 +221,50 @@ def test_zeros_without_error_are_no_observations(file: Path) -> None:
     early = earthspin.polar_motion(file=file, span=("1856-03-01", "1857-12-31"))
     assert early.sizes["time"] > 15
     assert not (early.y == 0).any()
+
+
+def test_a_header_with_decimal_years_is_confirmed_or_declared(file: Path) -> None:
+    """Half a year off, as the year of the middle would be; C04 at the years of the table is right.
+
+    The Besselian epoch 2000.0 is JD 2451544.533 (Lieske 1979, A&A 73, 282).
+    """
+    years = 2000 + 0.05 * np.arange(60)
+    seen = eop.read_polar_motion()
+    mjd = 51544.033 + (years - 2000) * 365.242198781
+
+    def write(mjd: np.ndarray) -> None:
+        x, y = (np.interp(mjd, seen.mjd, values / ARCSEC) for values in (seen.x, seen.y))
+        np.savetxt(file, np.transpose([years, x, y]), header="year x y", comments="")
+
+    write(mjd)
+    assert eop.read_polar_motion(file).mjd[0] == pytest.approx(mjd[0], abs=0.01)
+    write(mjd + 180)
+    with pytest.raises(SeriesError, match="arcsec from finals2000A; give kind='c01'"):
+        earthspin.polar_motion(file=file)
+    assert earthspin.polar_motion(file=file, kind="c01").sizes["time"] == 60
+    years -= 90
+    write(mjd)
+    with pytest.raises(SeriesError, match="fewer than 5 days of finals2000A; give kind='c01'"):
+        earthspin.polar_motion(file=file)
+
+
+def test_a_quantity_that_a_header_has_twice(file: Path) -> None:
+    mjd, x, y = pole()
+    rows = pd.DataFrame(np.transpose([mjd, x, y, 0 * x]))
+    table = rows.set_axis(["MJD", "x (arcsec)", "y (arcsec)", "x (arcsec)"], axis=1)
+    with pytest.raises(EarthspinError, match="header has 'x' twice"):
+        earthspin.polar_motion(file=table)
+    table.to_csv(file, index=False)
+    with pytest.raises(SeriesError, match="header has 'x' twice"):
+        earthspin.polar_motion(file=file)
+    columns = "mjd, x (arcsec), y (arcsec),"
+    assert np.allclose(earthspin.polar_motion(file=file, columns=columns).x, x, rtol=1e-12, atol=0)
+    file.write_text("epoch (kyr),obliquity (deg),obliquity (rad)\n0,23.44,0\n-1,23.57,0\n")
+    with pytest.raises(SeriesError, match="'obliquity' stands twice"):
+        earthspin.read_solution(file)
+    orbit = la2010()
+    with pytest.raises(SeriesError, match="header has 'k' twice"):
+        earthspin.read_orbit(pd.concat([orbit, 0 * orbit[["k"]]], axis=1))
 
 
 def labelled(index: Callable[[pd.DatetimeIndex], Any]) -> pd.DataFrame:
