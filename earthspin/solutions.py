@@ -166,7 +166,9 @@ def _understood(sheet: Sheet) -> list[Meaning]:
     far = tables.declared(ASTROGEO22.columns)
     if len(far) == sheet.width and math.isinf(_misfit(sheet, far)):
         return far
-    share, guess = max(_guesses(sheet, range(1, sheet.width)), key=lambda pair: pair[0])
+    share, guess = max(
+        _guesses(sheet, [BLANK] * sheet.width, range(1, sheet.width)), key=lambda pair: pair[0]
+    )
     agreeing = f"; {tables.typed(guess)} would agree with what is known of today" if share else ""
     problem = f"its {sheet.width} columns without names are not those of a known solution"
     remedy = "name them, columns='epoch (kyr), obliquity (deg)', or use read_orbit for elements"
@@ -234,16 +236,13 @@ def _are_calendar_years(sheet: Sheet, place: int) -> bool:
 
 
 def _guesses(
-    sheet: Sheet, places: Sequence[int], time: int = 0, unit: str = ""
+    sheet: Sheet, columns: Sequence[Meaning], places: Sequence[int], time: int = 0
 ) -> Iterator[tuple[float, list[Meaning]]]:
-    """Meanings of columns that agree with a known body: share of the columns, and the meaning."""
-    blank = [BLANK] * sheet.width
-    units = dict.fromkeys([unit, *_TIMES] if unit else _TIMES)
-    times = [[*blank[:time], Meaning("epoch", u), *blank[time + 1 :]] for u in units]
+    """Meanings of blank columns that agree with a known body: share of them, and all columns."""
+    units = dict.fromkeys([columns[time].unit or _TIMES[0], *_TIMES])
+    times = [[*columns[:time], Meaning("epoch", u), *columns[time + 1 :]] for u in units]
     for body in KNOWN:
-        yield tables.guessed(
-            blank, places, times, _OPTIONS, partial(_misfit, sheet, bodies=(body,))
-        )
+        yield tables.guessed(places, times, _OPTIONS, partial(_misfit, sheet, bodies=(body,)))
 
 
 def _others(sheet: Sheet, meaning: Sequence[Meaning]) -> Iterator[list[Meaning]]:
@@ -251,29 +250,25 @@ def _others(sheet: Sheet, meaning: Sequence[Meaning]) -> Iterator[list[Meaning]]
     names = [column.quantity for column in meaning]
     compared = (*BOUNDS, _PERIGEE)
     places = [place for place, name in enumerate(names) if name in compared]
-    time = names.index("epoch")
-    for share, other in _guesses(sheet, places, time, meaning[time].unit):
+    blank = [BLANK if column.quantity in compared else column for column in meaning]
+    for share, other in _guesses(sheet, blank, places, names.index("epoch")):
         if share == 1:
-            kept = [
-                old if old.quantity not in compared and old.quantity != "epoch" else new
-                for old, new in zip(meaning, other, strict=True)
-            ]
-            yield kept
+            yield other
 
 
 def _suggested(sheet: Sheet) -> list[Meaning]:
     """Columns to type for a header that is not understood, by its numbers and words."""
     by_words = [_by_words(sheet, place) for place in range(sheet.width)]
     times = [place for place, column in enumerate(by_words) if column.quantity == "epoch"]
-    time, unit = (times[0], by_words[times[0]].unit) if times else (0, "kyr")
+    time = times[0] if times else 0
     if times and _are_calendar_years(sheet, time):
         problem = f"its column '{sheet.names[time]}' may hold years of the calendar"
         remedy = "epochs count from J2000.0: subtract 2000, and name the column 'epoch (yr)'"
         raise sheet.error(problem, remedy)
+    blank = [BLANK] * sheet.width
+    blank[time] = by_words[time] if times else Meaning("epoch", "kyr")
     places = [place for place in range(sheet.width) if place != time]
-    _, meaning = max(_guesses(sheet, places, time, unit), key=lambda guess: guess[0])
-    if not meaning[time].quantity:
-        meaning[time] = Meaning("epoch", unit)
+    _, meaning = max(_guesses(sheet, blank, places, time), key=lambda guess: guess[0])
     for place, column in enumerate(by_words):
         if column.quantity not in {c.quantity for c in meaning} and not meaning[place].quantity:
             meaning[place] = column

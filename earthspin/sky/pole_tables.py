@@ -299,7 +299,7 @@ def guessed(sheet: Sheet, known: FloatArray) -> list[Meaning] | None:
             except SeriesError:  # text
                 return math.nan
 
-        _, meaning = tables.guessed(blank, range(sheet.width), [time], options, misfit)
+        _, meaning = tables.guessed(range(sheet.width), [time], options, misfit)
         if {"x", "y"} <= {column.quantity for column in meaning}:
             return meaning
     return None

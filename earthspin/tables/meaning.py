@@ -11,7 +11,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterable, Sequence
 
-from earthspin.tables.columns import BLANK, Meaning
+from earthspin.tables.columns import Meaning
 from earthspin.tables.sheet import Sheet, typed
 
 Columns = Sequence[Meaning]
@@ -50,9 +50,8 @@ def refuse_other_meaning(
 
 
 def guessed(
-    columns: Columns,
     places: Iterable[int],
-    times: Iterable[Columns],
+    times: Sequence[Columns],
     options: Sequence[Meaning],
     misfit: Misfit,
 ) -> tuple[float, list[Meaning]]:
@@ -60,12 +59,10 @@ def guessed(
 
     Parameters
     ----------
-    columns : list of Meaning
-        One for each column of the table; only their number is used.
     places : iterable of int
         Places of the columns whose meaning is looked for.
-    times : iterable of list of Meaning
-        Possible meanings of the columns of time, all others blank.
+    times : sequence of list of Meaning
+        All columns with each possible meaning of the time, blank where a meaning is looked for.
     options : sequence of Meaning
         Possible meanings of any other column.
     misfit : callable
@@ -77,7 +74,7 @@ def guessed(
     list of Meaning
         The best meaning, with columns left blank for which none agrees.
     """
-    best, wanted = (0, math.inf, [BLANK] * len(columns)), [*places]
+    best, wanted = (0, math.inf, [*times[0]]), [*places]
     for time in times:
         meaning, worst = [*time], 0.0
         trials = sorted(
