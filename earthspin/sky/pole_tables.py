@@ -86,10 +86,11 @@ def split(
         allowed = (*tables.DATES, *NAMES, "type")
         return sheet, PoleColumns(NAMED, sheet.as_declared(columns, allowed))
     if layout := sheet.layout:
+        meaning = tables.declared(layout.columns)
         if not tables.fits(layout.columns, sheet.width):
-            problem = f"{sheet.width} columns; {layout.name} has another number"
-            raise sheet.error(problem, "is the file complete?", 0)
-        return sheet, PoleColumns(layout.name, tables.declared(layout.columns))
+            problem = f"{sheet.width} columns; {layout.name} has {len(meaning)}"
+            raise sheet.error(problem, "is a column lost?", 0)
+        return sheet, PoleColumns(layout.name, meaning)
     if by_names := _by_names(sheet, kind):
         return sheet, by_names
     for layout in _without_header(sheet, kind):

@@ -220,10 +220,10 @@ def split(file: Path, layouts: Sequence[TableLayout] = ()) -> Sheet:
     cells = text_of.cells_of(rows, mark)
     cells, names = _cells_and_names(cells, head, mark)
     sheet = Sheet(file, words, names, cells, numbers, text, layout)
-    other = np.array([len(row) != sheet.width for row in cells])
+    count = np.array([len(row) for row in cells])
+    other = count != sheet.width
     remedy = "is a column lost?" if other[:-1].any() else "is the file cut off?"
-    count = {"count": np.array([len(row) for row in cells])}
-    sheet.refuse(other, f"{{count}} columns; {sheet.width} are expected", remedy, **count)
+    sheet.refuse(other, f"{{count}} columns; {sheet.width} are expected", remedy, count=count)
     return sheet
 
 
