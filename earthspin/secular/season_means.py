@@ -22,7 +22,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.special import elliprd, elliprf, elliprj
 
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.kepler import mean_anomaly
@@ -143,6 +142,8 @@ def _quadrant(obliquity: FloatArray, place: Place) -> FloatArray:
 
 def _even_part(obliquity: FloatArray, place: Place, longitude: FloatArray) -> FloatArray:
     """Integral P of the part of `daylight` that has the period pi, up to |L| <= pi/2."""
+    from scipy.special import elliprd, elliprf, elliprj  # imported here because it takes 0.1 s
+
     if isinstance(place, Band):
         return _even_part_of_band(obliquity, place, longitude)
     k = np.maximum(np.abs(np.sin(obliquity)), SMALLEST)
