@@ -24,9 +24,9 @@ import earthspin
 past = earthspin.long_term("-1 Myr", "0 kyr", "1 kyr")
 laskar = earthspin.read_solution("../../../tests/data/la2004-excerpt.txt")
 measures = {
-    "insolation": ({}, "June solstice\n(W/m²)"),
-    "caloric_summer": ({"mean": "caloric"}, "caloric summer\n(W/m²)"),
-    "integrated_summer": ({"mean": "above", "threshold": "275 W/m2"}, "above 275 W/m²\n(GJ/m²)"),
+    "insolation": ({}, "June\nsolstice (W/m²)"),
+    "caloric_summer": ({"mean": "caloric"}, "caloric\nsummer (W/m²)"),
+    "integrated_summer": ({"mean": "above", "threshold": "275 W/m2"}, "above\n275 W/m² (GJ/m²)"),
 }
 
 fig, rows = plt.subplots(6, figsize=(7.6, 9.0), sharex=True, layout="constrained")
@@ -42,7 +42,7 @@ for (name, (keys, label)), row, below in zip(measures.items(), rows[::2], rows[1
     below.fill_between(recent.epoch / 1000, -recent, recent, alpha=0.4, lw=0)
     below.plot(difference.epoch / 1000, difference, color="C1", lw=0.8)
     row.set_ylabel(label)
-    below.set_ylabel("less La2004")
+    below.set_ylabel(f"less\nLa2004 ({label.partition(' (')[2]}")
     row.margins(x=0)
 rows[-1].set_xlabel("time from J2000.0 (1000 years)")
 fig.align_ylabels(rows)
