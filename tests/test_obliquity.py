@@ -122,17 +122,6 @@ def test_a_normal_that_was_given_stays_and_a_derived_one_follows() -> None:
         assert lean == pytest.approx(angle, abs=1e-9, rel=0)
 
 
-def test_moments_make_a_body() -> None:
-    moments = (8.0e36, 8.01e36, 8.04e36)
-    figure = {k: v for k, v in PLANET.items() if k not in ("j2", "dynamical_flattening")}
-    body = Body(**figure, moments=moments, orbit=Orbit(a="1 au", i="5 deg", about="star"))
-    assert np.allclose(body.moments, moments, rtol=1e-14, atol=0)
-    assert body == Body(**PLANET, orbit=body.orbit).replace(moments=moments)
-    assert Body.read(body.write(), Where("body")) == body
-    with pytest.raises(BodyError, match="moments already give j2"):
-        Body(**figure, moments=moments, j2=1e-3)
-
-
 def test_an_unknown_element_of_an_orbit_is_refused() -> None:
     for keyword, words in (("EC", "allowed: .*e, epoch, i"), ("nod", "did you mean 'node'")):
         with pytest.raises(earthspin.ArgumentError, match=words):

@@ -199,7 +199,6 @@ class Body(checks.Record, shapes.FromMass):
     satellites: Annotated[tuple[Satellite, ...], SatelliteList()] = ()
     reference: Annotated[str, Text()] = ""
     obliquity: InitVar[Any] = None
-    moments: InitVar[Any] = None
 
     words: ClassVar[str] = 'a Body, a name like "mars", or a table of numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"
@@ -216,7 +215,7 @@ class Body(checks.Record, shapes.FromMass):
         """Refuse positional arguments, and keyword arguments that are not fields of a body."""
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
-        for key in fields.keys() - cls.KINDS.keys() - {"obliquity", "moments"}:
+        for key in fields.keys() - cls.KINDS.keys() - {"obliquity"}:
             use = f"use Body(...).replace({key}=...)" if key in _CONVERTERS else ""
             problem = _ADVICE.get(key) or use or nearest(key, cls.KINDS)
             raise BodyError(str(fields.get("name", "")), key, fields[key], problem)
@@ -224,16 +223,12 @@ class Body(checks.Record, shapes.FromMass):
             raise ArgumentError(f"Body() {missing}")
         return super().__new__(cls)
 
-    def __post_init__(self, obliquity: Any, moments: Any) -> None:
+    def __post_init__(self, obliquity: Any) -> None:
         if obliquity is not None:
             if self.pole is not None:
                 raise BodyError(self.name, "obliquity", obliquity, _ONE_AXIS)
             self._set(pole=TiltedPole.at(self._checked_obliquity(obliquity)))
         self._read_units()
-        if not isinstance(moments, property):  # the property of this name counts as the default
-            three = _CONVERTERS["moments"].read(moments, Where("moments"))
-            others = {name: getattr(self, name) for name in _FIGURE if getattr(self, name)}
-            self._set(**self._figure({"moments": three} | others))
         checks.check_kinds(self._fields(), self.UNITS)
         for name, read in (("pole", poles.pole_of), ("orbit_pole", Direction.of)):
             value = getattr(self, name)
@@ -471,8 +466,8 @@ class Body(checks.Record, shapes.FromMass):
         """Angular velocity of rotation, rad/s; negative if retrograde."""
         return 2 * math.pi / self.needed("spin_period")
 
-    @property  # type: ignore[misc]
-    def moments(self) -> Any:  # noqa: F811
+    @property
+    def moments(self) -> Any:
         """Principal moments of inertia A <= B <= C, kg m2, with C about the spin axis.
 
         The result is a NumPy array of shape (3,).

@@ -214,6 +214,7 @@ test_what_broke_is_refused_in_one_line = refused(
     (lambda: earthspin.ensemble("precession", CIRCLE), SceneError, "contains itself"),
     (lambda: EARTH.replace(obliquity=np.array([0.1, 0.2])), BodyError, "one angle"),
     (lambda: EARTH.replace(obliquity=["1 deg", "2 deg"]), BodyError, "one angle"),
+    (lambda: Body(**ROCK, moments=MOMENTS), BodyError, "replace\\(moments"),
     (lambda: Body(**ROCK, mass="1 kg"), BodyError, "give gm = "),
     (lambda: Body(name="rock", radius=1.0), ArgumentError, "gm = .*spin_period"),
     (lambda: EARTH.replace(polar_moment_factor=0.33), BodyError, "dynamical_flattening = j2/"),

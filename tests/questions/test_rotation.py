@@ -193,7 +193,7 @@ test_what_is_no_torque_is_refused = refused(
     (lambda t, q, omega: 1 / 0, "division by zero"),
     (lambda t, q, omega: np.zeros(5), "shapes"),
     (lambda t, q, omega: np.nan * omega, "not finite"),
-    (lambda t, q, omega: "much", "real numbers"),
+    (lambda t, q, omega: "much", "units of N m"),
     (5, "give a function"),
     call=lambda law: earthspin.rotation(body=ROUND, torque=law, **ALONE),
 )

@@ -166,7 +166,8 @@ def test_retrograde_spin_turns_the_precession_round() -> None:
 
 @pytest.mark.parametrize("tilt", [0.0, 180.0])
 def test_an_axis_upright_on_the_orbit_is_refused(tilt: float) -> None:
-    pole = MARS.orbit_pole if tilt == 0 else (MARS.orbit_pole[0] + np.pi, -MARS.orbit_pole[1])
+    ra, dec = MARS.orbit_pole
+    pole = (ra, dec) if tilt == 0 else (ra - np.pi, -dec)
     with pytest.raises(UndefinedError, match="normal to the orbit"):
         earthspin.precession(body=MARS.replace(pole=pole), perturbers=["sun"])
 
