@@ -251,9 +251,18 @@ def _others(sheet: Sheet, meaning: Sequence[Meaning]) -> Iterator[list[Meaning]]
     compared = (*BOUNDS, _PERIGEE)
     places = [place for place, name in enumerate(names) if name in compared]
     blank = [BLANK if column.quantity in compared else column for column in meaning]
-    for share, other in _guesses(sheet, blank, places, names.index("epoch")):
-        if share == 1:
+    time = names.index("epoch")
+    for share, other in _guesses(sheet, blank, places, time):
+        if share == 1 and (other[time] == meaning[time] or _changes(sheet, other, time)):
             yield other
+
+
+def _changes(sheet: Sheet, meaning: Sequence[Meaning], time: int) -> bool:
+    """Return True if a column changes near J2000.0: constants fit times in any unit."""
+    factor, origin = meaning[time].conversion("yr")
+    near = abs(factor * sheet.column(time) + origin) <= NEAR
+    data = _converted(sheet, meaning, near)
+    return any(np.ptp(data[name]) > 0.1 * BOUNDS[name] for name in BOUNDS if name in data)
 
 
 def _suggested(sheet: Sheet) -> list[Meaning]:

@@ -140,3 +140,11 @@ test_it_is_refused = refused(
 @pytest.fixture(autouse=True)
 def inside(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
+
+
+def test_a_model_that_does_not_change_is_no_other_unit_of_time(tmp_path: Path) -> None:
+    """Constants near those of today fit times in any unit."""
+    path = tmp_path / "still.csv"
+    rows = "\n".join(f"{age},0.0167,23.44" for age in range(101))
+    path.write_text(f"epoch (kyr BP),eccentricity,obliquity (deg)\n{rows}\n")
+    assert earthspin.read_solution(path).epoch[0] == -100050

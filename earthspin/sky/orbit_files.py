@@ -278,7 +278,7 @@ def _compare(given: _Rows, declared: bool, axes: FloatArray, body: str) -> None:
         If the columns agree with it only in another meaning, or their number alone tells their
         meaning and they do not agree.
     """
-    known = shipped(body)
+    known, meaning = shipped(body), given.meaning
     if known is None:
         return
 
@@ -289,12 +289,13 @@ def _compare(given: _Rows, declared: bool, axes: FloatArray, body: str) -> None:
             if np.count_nonzero(near) < FEWEST_NEAR:
                 return math.nan
             vectors = np.array(rows.vectors())[:, near] @ axes
+            if columns is not meaning and np.ptp(vectors, axis=1).max() < 0.1 * SAME:
+                return math.inf  # an orbit that does not change fits times in any unit
         except SeriesError:
             return math.inf
         off = vectors - np.swapaxes(known.at(rows.times[near])[:2], 1, 2)
         return float(np.median(np.linalg.norm(off, axis=2), axis=1).max()) / SAME
 
-    meaning = given.meaning
     tables.refuse_other_meaning(given.sheet, meaning, _others(meaning), misfit)
     if not declared and 1 < misfit(meaning) < math.inf:
         problem = f"as {tables.typed(meaning)} its perihelion is not that of {body} today"
