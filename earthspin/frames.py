@@ -464,7 +464,7 @@ def to_pck(answer: Answer, path: str | Path, frame_id: int | None = None) -> int
     --------
     >>> import earthspin
     >>> moon = earthspin.rotation("2026-01-01", "2026-01-09", "1 d", body="moon")
-    >>> moon.earthspin.to_pck("moon.bpc")  # doctest: +SKIP
+    >>> moon.earthspin.to_pck("moon.bpc")
     1900301
     """
     model = Model.of(answer.dataset)

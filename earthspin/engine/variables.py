@@ -350,7 +350,8 @@ class Variables:
             data = laid.values if factor == 1 else np.asarray(laid.values * factor)
             attributes = declared.attributes(name, values)
             if data.dtype.kind == "f" and np.isnan(data).any():
-                may_lack = self.schema[name.partition("_error")[0]].attrs.get(MISSING)
+                base = self.schema.get(name.partition("_error")[0], declared)
+                may_lack = base.attrs.get(MISSING)
                 if not (may_lack or (self._no_error and "_error" in name)):
                     problem = f"{declared.long_name} is undefined; check the numbers of the body"
                     raise UndefinedError(problem)
