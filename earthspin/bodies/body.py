@@ -218,7 +218,8 @@ class Body(checks.Record, shapes.FromMass):
         for key in fields.keys() - cls.KINDS.keys() - {"obliquity"}:
             use = f"use Body(...).replace({key}=...)" if key in _CONVERTERS else ""
             problem = _ADVICE.get(key) or use or nearest(key, cls.KINDS)
-            raise BodyError(str(fields.get("name", "")), key, fields[key], problem)
+            name = fields.get("name")
+            raise BodyError(name if isinstance(name, str) else "", key, fields[key], problem)
         if fields and (missing := _missing_fields(NOTHING, fields)):  # a copy begins without fields
             raise ArgumentError(f"Body() {missing}")
         return super().__new__(cls)

@@ -181,7 +181,8 @@ class Answer:
              moon            37613.9
             total            25712.1
         """
-        data = self.section(section) if section else self.dataset
+        main = isinstance(section, str) and not section
+        data = self.dataset if main else self.section(section)
         spread, variables = _spread(without_lost_units(data)), [*map(str, data.variables)]
         requested = names_in(columns, "columns")
         if requested == [ALL]:

@@ -103,10 +103,12 @@ def _made(answer: Any) -> dict[str, Any]:
 
 
 def _labels(answer: Any) -> dict[str, list[Any]]:
-    """Size of each dimension, and a hash of its labels if it has any."""
+    """Size of each dimension, and a hash of its labels if it has any; words in any order."""
     labels = {}
     for dim, size in answer.sizes.items():
-        content = plain_bytes(answer.coords[dim].values)[1] if dim in answer.coords else b""
+        values = answer.coords[dim].values if dim in answer.coords else np.empty(0)
+        values = np.sort(values) if values.dtype.kind in "OUST" else values
+        content = plain_bytes(values)[1]
         labels[str(dim)] = [size, hashlib.blake2b(content, digest_size=8).hexdigest()]
     return labels
 

@@ -297,7 +297,7 @@ def x_axis_angle(body: Body, day: float, spin_rate: float) -> float:
 
 def x_axis_longitude(body: Body) -> float:
     """East longitude of a body's x axis, rad: that of the axis of least moment, if triaxial."""
-    return body.long_axis if body.number("triaxiality") else 0.0
+    return body.number("long_axis") if body.number("triaxiality") else 0.0
 
 
 def with_effects(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:

@@ -116,8 +116,8 @@ def test_a_file_opened_by_xarray_is_read_in_every_method(tmp_path: Path) -> None
     assert len(own.earthspin.plot()) == 4
     written = own.earthspin.to_csv(tmp_path / "own.csv").read_text()
     assert written == past.earthspin.to_csv(tmp_path / "past.csv").read_text()
-    sunlight = [earthspin.daily_insolation(data, "65N", "90 deg").values for data in (own, past)]
-    np.testing.assert_array_equal(*sunlight)
+    sunlight = [earthspin.daily_insolation(data, "65N", "90 deg") for data in (own, past)]
+    np.testing.assert_array_equal(*(answer.insolation for answer in sunlight))
     offsets = earthspin.pole_offsets(span=("2000-01-01", "2020-01-01"))
     given = xr.load_dataset(earthspin.write(offsets, tmp_path / "offsets.nc"))
     again = earthspin.pole_offsets(file=given)

@@ -78,7 +78,9 @@ def test_what_is_wrong_is_one_line(table: dict, words: str) -> None:
 def test_a_key_is_found_wherever_it_is_typed(changes: dict[str, Any]) -> None:
     question = load_scene("polar-motion", changes)
     assert question.file == "finals"
-    assert np.allclose(question.span.days, [5478.5, 5843.5], rtol=1e-12, atol=0)  # from J2000.0, 12h
+    assert np.allclose(
+        question.span.days, [5478.5, 5843.5], rtol=1e-12, atol=0
+    )  # from J2000.0, 12h
     assert load_scene("forecast", {"forecast.file": "finals"}).file == "finals"
     assert load_scene("top-cusp", {"times": ["0 s", "1 s"]}).times.tolist() == [0, 1]
 

@@ -22,7 +22,7 @@ import earthspin
 from earthspin import OutputError, scenes
 from earthspin.engine import store
 from tests import shipped
-from tests.engine.work import bytes_of
+from tests.engine.work import bytes_of, without_ranges
 
 SEED = 20261121
 DATA = Path(__file__).parents[1] / "data"
@@ -191,7 +191,8 @@ def test_a_killed_run_in_the_first_format_is_refused_and_left_alone(
     assert bytes_of(tmp_path) == before
     shutil.rmtree(tmp_path / "r.zarr.partial")
     path = earthspin.write_series(scene, tmp_path / "r.zarr")
-    assert earthspin.open(path).identical(earthspin.run(scene))
+    back, whole = earthspin.open(path), earthspin.run(scene)
+    assert without_ranges(back).identical(without_ranges(whole))
 
 
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
@@ -302,7 +303,8 @@ def test_a_series_in_blocks_carries_checksums(
     scene = earthspin.load_scene("torque").replace(span=("2000-01-01", "2000-03-01"))
     path = earthspin.write_series(scene, tmp_path / "blocks.zarr")
     assert earthspin.verify(path) == path
-    assert earthspin.open(path).identical(earthspin.run(scene))
+    back, whole = earthspin.open(path), earthspin.run(scene)
+    assert without_ranges(back).identical(without_ranges(whole))
     (path / "torque" / "2.0.0").unlink()
     with pytest.raises(OutputError, match=r"'torque/2\.0\.0' is missing"):
         earthspin.verify(path)

@@ -58,10 +58,15 @@ def elsewhere() -> Iterator[None]:
 def only_planned() -> Iterator[None]:
     """Read and plan whatever is asked, and compute nothing."""
     planned = mock.Mock(side_effect=lambda question, *_: run.Run(question).plan())
+
+    def plan_sections(question: Any, *_: object) -> None:
+        run.Run(question).plan()
+        raise UndefinedError("not tried")
+
     with (
         elsewhere(),
         mock.patch.object(public_calls, "answer", planned),
-        mock.patch.object(public_calls, "answer_tree", planned),
+        mock.patch.object(public_calls, "answer_tree", plan_sections),
         mock.patch("earthspin.scenes.warn_of_versions"),
         mock.patch.object(run.Run, "__getitem__", side_effect=UndefinedError("not tried")),
     ):

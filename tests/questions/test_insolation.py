@@ -317,9 +317,9 @@ def test_latitudes_as_people_write_them(past: xr.Dataset, latitude: Any, degrees
 
 
 test_wrong_keys_are_refused = refused(
-    ({"latitude": 65}, "write '65 deg'"),
+    ({"latitude": 65}, "write '65.0 deg'"),
     ({"latitude": "95N"}, "latitude.*at most 90"),
-    ({"longitude": 90}, "write '90 deg'"),
+    ({"longitude": 90}, "write '90.0 deg'"),
     ({"longitude": "90 deg", "day": 172}, "either longitude, or mean_longitude, or day"),
     ({"day": 400}, "day = 400.*367"),
     ({"day": 100, "body": "mars"}, "Earth's calendar"),

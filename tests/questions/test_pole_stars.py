@@ -134,5 +134,5 @@ def test_the_pole_is_read_by_its_labels() -> None:
     stars = earthspin.pole_stars(turned)
     assert stars.identical(earthspin.pole_stars(answer))
     assert stars.star.squeeze().values.tolist() == ["Thuban", "Polaris"]
-    with pytest.raises(earthspin.SceneError, match=r"result.pole = .*components x, y and z"):
+    with pytest.raises(earthspin.SceneError, match="3 labels along 'component', the data have 2"):
         earthspin.pole_stars(answer.isel(component=[0, 1]))

@@ -41,7 +41,9 @@ def test_the_numbers_of_the_line_are_those_of_the_answer(precession_tree: xr.Dat
     plan = precession_tree["plan"]
     (work,) = map(float, re.findall(r"of it ([\d.e-]+) s computation", line))
     assert work == pytest.approx(float(plan.run_time.sum()), rel=0.05, abs=0)
-    assert float(plan.computation_time) == pytest.approx(float(plan.run_time.sum()), rel=1e-9, abs=0)
+    assert float(plan.computation_time) == pytest.approx(
+        float(plan.run_time.sum()), rel=1e-9, abs=0
+    )
     assert float(plan.wall_time) > float(plan.computation_time)
 
 

@@ -246,7 +246,7 @@ test_wrong_settings_are_one_line = refused(
     ({"wobble.ocean": "rael"}, "did you mean 'real'"),
     ({"wobble.anelastic_exponent": 0.5}, "between 0 and 0.2"),
     ({"wobble.anelastic_exponent": "much"}, "pure number"),
-    ({"wobble.depth": 1}, "wobble.depth"),
+    ({"wobble.depth": 1}, "depth = 1: .* has no such key"),
     ({"body.interior": "permm"}, "did you mean 'prem'"),
     ({"body.j2": 1e-4}, "more than the body's bulge"),
     call=lambda changes: earthspin.run(load_scene("wobble", changes)),
