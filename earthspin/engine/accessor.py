@@ -181,7 +181,7 @@ class Answer:
              moon            37613.9
             total            25712.1
         """
-        main = isinstance(section, str) and not section
+        main = isinstance(section, str) and not section  # type: ignore[redundant-expr]
         data = self.dataset if main else self.section(section)
         spread, variables = _spread(without_lost_units(data)), [*map(str, data.variables)]
         requested = names_in(columns, "columns")
