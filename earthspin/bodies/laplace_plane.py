@@ -28,10 +28,10 @@ _NORTH = np.array([0.0, 0.0, 1.0])
 def laplace_plane(orbit: Orbit, gm: float, planet: Any) -> Plane | None:
     """Laplace plane of a moon with a given GM (m3 s-2); None if it is not the reference plane.
 
-    `planet` is the central `Body`, or None if it is no built-in body.
-    That is so if the orbit has a plane of its own, or if its centre is the Earth, whose Moon has
-    the ecliptic, or no planet with a known orbit. Longitudes count from the ascending node of the
-    plane on the equator of the ICRF.
+    `planet` is the central `Body`, or None if the centre is no built-in body. The Laplace plane is
+    not the reference plane if the orbit has a plane of its own, if the centre is the Earth (the
+    elements of the Moon refer to the ecliptic), or if the planet's orbit is not known. Longitudes
+    count from the ascending node of the plane on the equator of the ICRF.
     """
     if orbit.plane is not None or planet is None or planet.pole is None or gm > planet.gm:
         return None

@@ -25,7 +25,6 @@ SOURCE = Tabulated(
 #: (NAIF, comments of moon_080317.tf); half as much again is for what both have in common.
 HALF_WIDTH = 0.14 * ARCSEC
 
-
 #: Angles of the rotations about z, y and x that lead from principal to mean-Earth axes, rad
 #: (Williams, Boggs & Folkner 2008, JPL IOM 335-JW,DB,WF-20080314-001; moon_080317.tf of NAIF).
 MEAN_EARTH_ANGLES = (-67.92 * ARCSEC, -78.56 * ARCSEC, -0.30 * ARCSEC)

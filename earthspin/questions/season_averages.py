@@ -64,7 +64,7 @@ Rows = Callable[..., Mapping[str, Pair]]
 
 @dataclass(frozen=True)
 class Average:
-    """What is averaged, and the scale of the answer.
+    """Kind of average, its places and times, and the solar constant.
 
     Attributes
     ----------
@@ -245,7 +245,7 @@ def _broadcast(
 
 
 def _computed(solution: xr.Dataset, places: tuple[xr.DataArray, ...], compute: Rows) -> Pairs:
-    """Apply a function to all labels at once."""
+    """Apply a function to the arrays of all labels in one call."""
     labels, arrays = _broadcast(solution, places)
     pairs = compute(Season(*arrays[:3]), Season(*arrays[3:6]), *arrays[6:])
     return {
