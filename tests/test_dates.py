@@ -12,6 +12,7 @@ import cftime
 import numpy as np
 import pandas as pd
 import pint
+import polars as pl
 import pytest
 import xarray as xr
 from astropy.time import Time
@@ -238,8 +239,7 @@ def test_zones_of_other_libraries_are_converted() -> None:
     date = dt.datetime(2000, 1, 1, tzinfo=dt.UTC)
     expected = dates.days(date, TIMES)
     assert dates.days(OfPendulum(2000, 1, 1, tzinfo=dt.UTC), TIMES) == expected
-    polars = pytest.importorskip("polars")
-    assert dates.days(polars.Series([date]), TIMES) == expected
+    assert dates.days(pl.Series([date]), TIMES) == expected
 
 
 def test_no_times_are_read() -> None:

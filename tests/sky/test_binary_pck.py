@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import spiceypy as spice
 from jplephem.daf import DAF
 from jplephem.pck import PCK
 from scipy.spatial.transform import Rotation
@@ -68,7 +69,6 @@ def test_skyfield_builds_the_frame(moon: "earthspin.Dataset", path: Path) -> Non
 
 
 def test_cspice_reads_the_frame(moon: "earthspin.Dataset", path: Path) -> None:  # type: ignore[name-defined]
-    spice = pytest.importorskip("spiceypy")
     spice.furnsh(str(path))
     spice.lmpool([f"{key} = {value}" for key, value in FRAME.items()])
     spice.lmpool(["FRAME_1900301_NAME = 'MOON_BY_EARTHSPIN'"])

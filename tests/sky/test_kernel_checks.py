@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import spiceypy as spice
 from numpy.polynomial.chebyshev import chebval
 
 import earthspin
@@ -185,7 +186,6 @@ def test_segments_of_other_types_are_refused_if_they_are_asked_for(
 
 
 def test_two_segments_are_read_as_spice_reads_them(tmp_path: Path, pieces: list[Piece]) -> None:
-    spice = pytest.importorskip("spiceypy")
     late = [replace(p, series=p.series * (1 + 1e-9)) for p in pieces]
     late = [replace(p, start=p.start + 64 * 86400.0) for p in late]
     file = write_kernel(tmp_path / "spice.bsp", [*pieces, *late])
