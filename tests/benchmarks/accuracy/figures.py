@@ -19,15 +19,16 @@ KEY = "filled: earthspin\nopen: other methods and libraries"
 PANELS = {
     "torque": (
         *("nutation from nodes, 2000A", "nutation from nodes, 2000B", "nutation at each epoch"),
-        *("Skyfield, radec of date", "ERFA, nutation IAU 2000B", "mean equator, no nutation"),
+        *("torque_series(), first and later", "Skyfield, radec of date"),
+        *("ERFA, nutation IAU 2000B", "mean equator, no nutation"),
     ),
     "pole": (
-        *("windows of 8 d", "windows of 16 d", "windows of 32 d", "momentum and figure axis"),
-        *(f"SciPy {name}, momentum alone" for name in ("RK45", "LSODA", "DOP853")),
+        *("windows of 8 d", "windows of 16 d", "windows of 32 d", "pole(), first and later"),
+        *("SciPy RK45", "SciPy LSODA", "SciPy DOP853", "ERFA, IAU 2006/2000A"),
     ),
     "precession": (
         *("hann window", "sin4 window", "blackman-harris window"),
-        "plain mean over years",
+        *("precession(), first and later", "plain mean over years"),
     ),
 }
 

@@ -2,9 +2,11 @@
 
 Each setting is compared with a reference that is at least a hundred times more accurate. Run times
 are those of the fastest of some samples after a warm-up, because other processes only lengthen
-them.
+them. Calls that a user types are timed a second time as the first call of a process.
 """
 
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -13,6 +15,7 @@ from typing import Any
 
 import pandas as pd
 
+import earthspin
 from earthspin.number_text import plain
 
 #: Function that returns values and the number of evaluations of the costly function.
@@ -62,6 +65,46 @@ class Ladder:
         return max(float(self.error(values)), self.floor)
 
 
+@dataclass(frozen=True)
+class PublicCall:
+    """Call that a user types, timed as the first or as a later call of a process.
+
+    Attributes
+    ----------
+    text : str
+        Expression, like ``earthspin.precession()``.
+    values : callable
+        Values that are compared with the reference, from the answer.
+    first : bool
+        True to time the first call of a fresh process that has imported the package.
+    """
+
+    text: str
+    values: Callable[[Any], Any]
+    first: bool = False
+
+    def __call__(self, case: int = 0) -> tuple[Any, int]:
+        """Values of the call, the same in each case; evaluations are not counted."""
+        return self.values(self._answer()), 0
+
+    def seconds(self) -> float:
+        """Run time of the call alone."""
+        if not self.first:
+            return _seconds(self._answer)
+        clock = f"b = time.perf_counter(); {self.text}; print(time.perf_counter() - b)"
+        command = [sys.executable, "-c", f"import earthspin, time; {clock}"]
+        ended = subprocess.run(command, capture_output=True, text=True, check=True)
+        return float(ended.stdout)
+
+    def _answer(self) -> Any:
+        return eval(self.text, {"earthspin": earthspin})
+
+
+def public_call(text: str, values: Callable[[Any], Any]) -> dict[str, Run]:
+    """Two settings of a call that a user types: first and later in a process."""
+    return {"first call": PublicCall(text, values, True), "later call": PublicCall(text, values)}
+
+
 def settings(words: str, run: Run, values: Iterable[float]) -> dict[str, Run]:
     """Runs with one number each, which takes the place of the braces in the words."""
     return {words.format(plain(value)): partial(run, value) for value in values}
@@ -82,7 +125,8 @@ def _rows(ladder: Ladder) -> Iterator[dict[str, Any]]:
     for method, runs in ladder.runs.items():
         for setting, run in runs.items():
             error, (_, evaluations) = ladder.error_of(run), run()
-            seconds = min(_seconds(run) for _ in range(SAMPLES))
+            clock = run.seconds if isinstance(run, PublicCall) else partial(_seconds, run)
+            seconds = min(clock() for _ in range(SAMPLES))
             yield {
                 **{"method": method, "setting": setting, "error": error},
                 **{"seconds": seconds, "evaluations": evaluations},

@@ -8,6 +8,7 @@ from functools import cache, partial
 
 import erfa
 import numpy as np
+import xarray as xr
 from scipy.interpolate import make_interp_spline
 from skyfield.api import load
 from skyfield.jpllib import SpiceKernel
@@ -17,12 +18,14 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import iau_models
 from earthspin.sky.poles import rotate
 from earthspin.sky.skyfield import Skyfield
-from tests.benchmarks.accuracy.ladder import Ladder, settings
+from tests.benchmarks.accuracy.ladder import Ladder, public_call, settings
 from tests.reference.equator import true_equator
 from tests.reference.sky import CENTRE, CODES, kernel, positions, unit_vectors
 
-#: Epochs, d from J2000.0 TDB.
-DAYS = 8000.25 + np.linspace(0.0, 366.0, 10_000)
+#: Epochs, d from J2000.0 TDB: 10,000 in a year, from 2021-11-26T18:00.
+DAYS = 8000.25 + 3160 / 86400 * np.arange(10_000)
+#: What a user types.
+CALL = 'earthspin.torque_series("2021-11-26T18:00", "2022-11-27T10:54", "3160 s", equator="true")'
 ENDS = float(DAYS[0]), float(DAYS[-1])
 SPACINGS = (16.0, 8.0, 4.0, 2.0, 1.0, 0.5)
 
@@ -46,6 +49,10 @@ def ladder() -> Ladder:
     def own_source() -> tuple[FloatArray, int]:
         coordinates = source.radec(CODES, CENTRE, DAYS, iau_models.true_equator).values()
         return np.stack([unit_vectors(ra, dec) for ra, dec, _ in coordinates]), DAYS.size
+
+    def called(answer: xr.Dataset) -> FloatArray:
+        answer = answer.transpose("perturber", ...)
+        return unit_vectors(np.radians(answer.right_ascension), np.radians(answer.declination))
 
     def skyfield() -> tuple[FloatArray, int]:
         t, result = scale.tdb_jd(J2000_JD, DAYS), []
@@ -74,6 +81,7 @@ def ladder() -> Ladder:
             "nutation at each epoch": {
                 "": partial(at_each, lambda: iau_models.NutationSpline(*ENDS, 1).true_equator(DAYS))
             },
+            "torque_series(), first and later": public_call(CALL, called),
             'source = "skyfield"': {"": own_source},
             "ERFA, nutation IAU 2000B": {
                 "": partial(at_each, partial(erfa.pnm00b, J2000_JD, DAYS))
@@ -87,6 +95,7 @@ def ladder() -> Ladder:
             "nutation from nodes, 2000A": 8e-12 / MAS,
             "nutation from nodes, 2000B": 2.0,
             "nutation at each epoch": 2e-15 / MAS,
+            "torque_series(), first and later": 8e-12 / MAS,
             'source = "skyfield"': 5e-12 / MAS,
         },
     )
