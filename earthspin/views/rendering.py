@@ -167,7 +167,9 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
         names = [name for name in plan(answer, "all").sections if name in needed]
         if names:
             sections = run_tree(answer, names)
-            nodes |= {name: sections.earthspin.section(name) for name in names}
+            # in the order of the answer's labels, which the caller may have changed
+            for name in names:
+                nodes[name] = sections.earthspin.section(name).reindex_like(nodes["/"])
     return [drawing.figure for drawing in drawings_for(xr.DataTree.from_dict(nodes))]
 
 
