@@ -39,6 +39,7 @@ reason = "for this test"
 """
 
 
+@pytest.mark.slow
 def test_changes_that_no_test_notices_are_shown(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

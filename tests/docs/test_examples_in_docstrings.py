@@ -45,6 +45,7 @@ def run(name: str, text: str) -> tuple[doctest.DocTest, str]:
     return test, "".join(told)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PUBLIC)
 def test_it_has_an_example_that_prints_what_it_says(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -196,6 +196,7 @@ def test_masses_of_what_pulls_are_side_by_side() -> None:
         assert_is_alone(many, number, earthspin.precession(perturbers=[SUN, moon]), 1e-14, 1e-8)
 
 
+@pytest.mark.slow
 def test_any_number_in_any_block() -> None:
     whole = earthspin.run(asked("precession", 200))
     for n, block in ((1, 45), (ROW, 64), (ROW + 1, 45), (ROW + 1, 64), (199, 45), (199, 200)):
@@ -465,6 +466,7 @@ def test_inputs_have_their_units_and_names() -> None:
     assert answer.body_spin_period.attrs["units"] == "s"
 
 
+@pytest.mark.slow
 def test_sources_of_random_numbers_of_numpy() -> None:
     """An integer is the seed itself; equal generators give equal ensembles (SPEC 7)."""
     seeded = earthspin.ensemble("precession", 5, seed=3)

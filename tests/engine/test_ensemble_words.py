@@ -76,6 +76,7 @@ def mixed(n: int, **settings: Any) -> Any:
     return long_term({"n": n, **drawn, **settings}, span=("-2 kyr", "0 kyr"), step="1 kyr")
 
 
+@pytest.mark.slow
 def test_a_member_is_the_same_alone_and_in_any_block(orbits: Path) -> None:
     many = earthspin.run(mixed(ROW + 6))
     assert len(np.unique(many.orbit)) == 3
@@ -88,6 +89,7 @@ def test_a_member_is_the_same_alone_and_in_any_block(orbits: Path) -> None:
     assert differ(again.drop_vars("member"), many.isel(member=[2, 3]).drop_vars("member")) == []
 
 
+@pytest.mark.slow
 def test_more_orbits_than_are_kept_at_a_time(orbits: Path) -> None:
     names = [f"{number}.dat" for number in range(LARGEST_NUMBER_OF_RUNS + 2)]
     for number, name in enumerate(names):
@@ -98,6 +100,7 @@ def test_more_orbits_than_are_kept_at_a_time(orbits: Path) -> None:
     np.testing.assert_allclose(many.eccentricity[:, 0], expected, rtol=1e-9, atol=0)
 
 
+@pytest.mark.slow
 def test_files_and_stores_keep_the_words(orbits: Path) -> None:
     answer = earthspin.run(mixed(9))
     assert earthspin.run(answer).identical(answer)

@@ -356,6 +356,7 @@ def test_an_end_beside_the_blocks_says_what_is_kept(
 # --- by a cluster --------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_cluster_of_two_makes_the_same_bytes(tmp_path: Path, undisturbed: Path) -> None:
     path = blocks.write(Squares(), tmp_path / "r.zarr", client=np.int64(2))
     assert bytes_of(path) == bytes_of(undisturbed)

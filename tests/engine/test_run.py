@@ -122,6 +122,7 @@ def test_means_are_reused_for_equal_inputs_only(
     assert rate(ephemeris=kernel)[1]
 
 
+@pytest.mark.slow
 def test_paths_of_the_pole_are_reused_for_other_dates_only(monkeypatch: pytest.MonkeyPatch) -> None:
     parts = iau_comparison.comparison, iau_comparison.response_fit
     span, dates = ["2000-01-01", "2000-01-03"], {"span": ["2001-01-01", "2001-01-03"]}

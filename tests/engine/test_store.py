@@ -63,6 +63,7 @@ def test_a_file_has_a_date_and_an_answer_has_none(tmp_path: Path, kind: str) -> 
     assert store.open(path).attrs == result.attrs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
 def test_killed_while_writing(tmp_path: Path, kind: str) -> None:
     """Kill the process in the middle of a write: the old file is still whole."""

@@ -65,6 +65,7 @@ def read_or_refused(path: Path, answer: xr.Dataset | xr.DataTree) -> bool:
     return False
 
 
+@pytest.mark.slow
 def test_no_flipped_bit_of_the_numbers_or_attributes_of_a_netcdf_file_is_read(
     tmp_path: Path,
 ) -> None:

@@ -110,6 +110,7 @@ def test_readers_find_the_old_or_the_new(tmp_path: Path, kind: str) -> None:
     assert not trouble
 
 
+@pytest.mark.slow
 def test_a_store_whose_writer_was_killed_between_two_moves_is_restored(tmp_path: Path) -> None:
     """By the next writer, even if that one fails."""
     path = store.write(small(1.0), tmp_path / "r.zarr")
@@ -174,6 +175,7 @@ def digests(_: int = 0) -> list[str]:
     return [store.content_hash({"/": earthspin.run(scene)}) for scene in scenes]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
 def test_threads_asyncio_and_forks_give_the_same_bits() -> None:
     expected = digests()

@@ -50,6 +50,7 @@ def test_arrays_give_what_a_loop_gives() -> None:
         xr.testing.assert_equal(many.isel(case=case), precession(one(case)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in VALUES if name not in ("gm", "j2")])
 def test_members_of_each_element_are_those_of_a_loop(name: str) -> None:
     inputs = xr.Dataset({f"body.{name}": ("member", VALUES[name])})

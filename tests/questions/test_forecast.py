@@ -116,6 +116,7 @@ def test_coverage_measured_on_releases() -> None:
     assert np.all(abs(np.mean(shares, axis=0) - 0.95) < 0.02)
 
 
+@pytest.mark.slow
 def test_offsets_after_the_origin_change_no_bit(lines: list[str], tmp_path: Path) -> None:
     end = number_of_row(lines, ORIGIN)
     changed = [

@@ -50,7 +50,10 @@ def test_the_pole_moves_as_the_known_excitation_drives_it(
         assert np.all(error <= 3 * walk + 0.3)
 
 
-@pytest.mark.parametrize("origin", ["2015-03-01", "2016-09-09", "2018-06-01"])
+@pytest.mark.parametrize(
+    "origin",
+    ["2015-03-01", *(pytest.param(d, marks=pytest.mark.slow) for d in ("2016-09-09", ORIGIN))],
+)
 def test_excitation_without_noise(pole: xr.Dataset, origin: str) -> None:
     """The known excitation drives the pole of its own days: 0.1 to 0.2 mas, a day off 0.7 to 1."""
     true = earthspin.excitation(pole, period="433 d", quality_factor=80)

@@ -38,6 +38,7 @@ def own(body: Body) -> Body:
     return body.replace(name=f"own {body.name}")
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("scene", ASKED)
 def test_a_renamed_body_has_the_same_numbers(scene: str) -> None:

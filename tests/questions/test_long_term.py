@@ -293,6 +293,7 @@ def test_climatic_precession_is_inside_for_phases_of_the_longitudes_own_error(
     assert 0.92 < inside.mean() < 0.99
 
 
+@pytest.mark.slow
 def test_members_have_the_same_bits_alone_where_half_widths_are_sampled() -> None:
     """Each reaches a phase error of 0.1 rad at an epoch of its own."""
     factors = [0.97, 1.0]

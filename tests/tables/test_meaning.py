@@ -321,7 +321,7 @@ def test_all_calls_take_the_same_things(file: Path) -> None:
         assert earthspin.excitation(**given).sizes["time"] == mjd.size - 1
         named = {"file" if name == "ds" else name: value for name, value in given.items()}
         assert earthspin.polar_motion(**named).sizes["time"] == mjd.size
-        ahead = earthspin.forecast(5, parameters="fitted", **named)
+        ahead = earthspin.forecast(5, **named)
         assert float(ahead.x[0]) == pytest.approx(x[-1], rel=0, abs=0.01)
     with pytest.raises(EarthspinError, match="rename the columns"):
         earthspin.polar_motion(file=frame, columns=columns)

@@ -48,6 +48,7 @@ def opened(browser: str, page: Path, profile: Path, *words: str) -> tuple[str, s
     return done.stdout, done.stderr
 
 
+@pytest.mark.slow
 def test_every_picture_is_painted_and_the_console_is_clean(
     browser: str, page: Path, tmp_path: Path
 ) -> None:

@@ -84,6 +84,7 @@ def test_it_is_the_last_line_of_the_command(capsys: pytest.CaptureFixture[str]) 
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words", ["run precession", "ensemble precession --members 10 --out {}/e.zarr"]
 )

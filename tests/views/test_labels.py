@@ -35,6 +35,7 @@ def labels(figure: Figure) -> Iterator[str]:
                 yield axis.get_label_text()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES)
 def test_every_label_is_a_quantity_and_its_unit_in_brackets(scene: str) -> None:
     for figure in figures(scene):

@@ -42,6 +42,7 @@ def squeezed(text: str) -> str:
     return re.sub(r"\s", "", text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES, ids=lambda name: name[:20])
 def test_every_reader_shows_a_name_as_it_is(
     tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]

@@ -31,6 +31,7 @@ def drawings_of(scene: str) -> list[Drawing]:
     return drawings_for(shipped.tree(scene))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", shipped_scenes())
 def test_the_page_of_a_scene_has_all_that_there_is(
     scene: str, monkeypatch: pytest.MonkeyPatch

@@ -110,6 +110,7 @@ def test_headers_are_the_declared_labels_with_their_units() -> None:
     assert quantities(data.isel(planet=0), "rate") == [("rate of the axis, arcsec/yr", "1.00(10)")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", shipped.SCENES.values())
 def test_every_variable_of_every_section_stands_in_a_table(scene: str) -> None:
     tree = shipped.tree(scene)

@@ -94,6 +94,7 @@ def test_amplitude_figure_takes_either_layout(pole: xr.DataTree) -> None:
         assert len(observed_pole.plot_phase(result).lines) == 2
 
 
+@pytest.mark.slow
 def test_report(tmp_path: Path) -> None:
     assert main(["report", "wobble", "--out", str(tmp_path)]) == 0
     text = (tmp_path / "wobble.html").read_text()
