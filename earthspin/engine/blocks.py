@@ -35,7 +35,15 @@ from earthspin.engine import atomic_writes
 from earthspin.engine.origin import with_labels
 from earthspin.engine.question import BLOCK, Block, Question, scene_text
 from earthspin.engine.run import Run
-from earthspin.engine.store import MADE_OF, OF_FILES, VERSION, encoding_of, verify, zarr_of
+from earthspin.engine.store import (
+    MADE_OF,
+    OF_FILES,
+    VERSION,
+    encoding_of,
+    open_groups,
+    verify,
+    zarr_of,
+)
 from earthspin.engine.variables import spelled
 from earthspin.errors import MissingExtraError, OutputError, SceneError, Where, one_line
 from earthspin.progress import progress
@@ -108,6 +116,8 @@ def missing_blocks(folder: Path, layout: Layout) -> list[int]:
 def finish(folder: Path, layout: Layout, target: Path) -> None:
     """Check that no block of a Zarr store is missing or damaged; move the store to its target path.
 
+    The scene is completed with the labels and ranges of all blocks.
+
     Raises
     ------
     OutputError
@@ -119,6 +129,10 @@ def finish(folder: Path, layout: Layout, target: Path) -> None:
     if missing_blocks(folder, layout):
         problem = "a block differs from what was just written"
         raise OutputError(folder, problem, "check the disk and run it again")
+    whole = open_groups(store, engine="zarr", consolidated=False)["/"]
+    parts = (slice(*layout.bounds(number)) for number in range(layout.count))
+    with_labels(whole, (whole.isel({layout.along: part}).load() for part in parts))
+    zarr_of().seal(store, whole.attrs)
     zarr_of().close(store)
     atomic_writes.put_in_place(store, target, folder)
     atomic_writes.remove(folder)
@@ -227,7 +241,6 @@ def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Da
     zarr_folder = zarr_of()
     whole = first.nbytes / layout.length(0) * layout.size
     atomic_writes.refuse_what_does_not_fit(folder, whole, f"{layout.size} {layout.along}s")
-    first = with_labels(first.copy(), {layout.along: layout.size})
     node = spelled(first).assign_attrs(OF_FILES | {MADE_OF: digest(request)})
     encoding = encoding_of(node)
     for name, variable in node.variables.items():

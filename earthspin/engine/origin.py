@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable
 from typing import Any, TypeVar
 
 import numpy as np
@@ -25,18 +25,22 @@ _MADE = "\n# made: "
 _LARGER = 10.0
 
 
-def with_labels(answer: T, lengths: Mapping[str, int] | None = None) -> T:
+def with_labels(answer: T, blocks: Iterable[xr.Dataset] = ()) -> T:
     """Add the labels and ranges of an answer to its scene, if it has one, in place.
 
     Parameters
     ----------
     answer : Dataset or DataTree
-    lengths : mapping of str to int, optional
-        Sizes of dimensions, if the answer is only a first block, whose numbers are not all.
+    blocks : iterable of Dataset
+        Blocks of an answer in a store, whose numbers are not in memory.
     """
-    made = _labels(answer) | ({n: [k] for n, k in lengths.items()} if lengths else _ranges(answer))
+    made = _labels(answer) | _ranges(answer)
+    for name, (low, high) in (entry for block in blocks for entry in _ranges(block).items()):
+        least, most = made.get(name, (low, high))
+        made[name] = [min(least, low), max(most, high)]
     if scene := answer.attrs.get(SCENE):
-        answer.attrs[SCENE] = f"{scene.partition(_MADE)[0]}{_MADE}{json.dumps(made)}\n"
+        text = json.dumps(made, sort_keys=True)
+        answer.attrs[SCENE] = f"{scene.partition(_MADE)[0]}{_MADE}{text}\n"
     return answer
 
 

@@ -346,7 +346,7 @@ def _read_zarr(path: Path) -> dict[str, xr.Dataset]:
     sealed = _format_of(path, zarr_folder.attributes(path)) == VERSION
     (zarr_folder.metadata_of if sealed else zarr_folder.check_nodes)(path)
     store = zarr_folder.ZarrFolder(path) if sealed else path
-    nodes = _open_groups(store, engine="zarr", consolidated=sealed)
+    nodes = open_groups(store, engine="zarr", consolidated=sealed)
     nodes["/"].attrs.pop(zarr_folder.METADATA, None)
     return nodes
 
@@ -356,7 +356,7 @@ def _read_netcdf(path: Path) -> dict[str, xr.Dataset]:
     if path.is_fifo():
         raise OutputError(path, "it is a pipe", "give a file")
     with signals_held(), _NETCDF:
-        nodes = _open_groups(path, engine="netcdf4")
+        nodes = open_groups(path, engine="netcdf4")
         try:
             for node in nodes.values():
                 node.load()
@@ -369,7 +369,7 @@ def _read_netcdf(path: Path) -> dict[str, xr.Dataset]:
     return nodes
 
 
-def _open_groups(store: Any, **options: Any) -> dict[str, xr.Dataset]:
+def open_groups(store: Any, **options: Any) -> dict[str, xr.Dataset]:
     """Open all groups of a file as Datasets, by group path, with times as ``datetime64[us]``."""
     return xr.open_groups(store, decode_times=xr.coders.CFDatetimeCoder(time_unit="us"), **options)
 

@@ -38,6 +38,8 @@ DIMENSIONS = "_ARRAY_DIMENSIONS"
 OPTIONS: dict[str, Any] = {"consolidated": False, "zarr_format": 2, "write_empty_chunks": True}
 #: Codec of every chunk.
 _CODEC = numcodecs.Zstd(level=0, checksum=True)
+#: Files of the metadata of a group or an array.
+_METADATA_FILES = (".zattrs", ".zgroup", ".zarray")
 #: Name of the file of a chunk.
 _CHUNK = re.compile(r"\d+(\.\d+)*")
 
@@ -89,26 +91,34 @@ def lengthen(store: Path, along: str, size: int) -> None:
             array.resize((size, *array.shape[1:]))
 
 
-def seal(store: Path) -> None:
-    """Store a hash of the metadata of a Zarr store, and write all metadata into one file."""
-    files = sorted(path.relative_to(store).as_posix() for path in store.rglob(".z*"))
-    metadata = {name: json.loads((store / name).read_bytes()) for name in files}
+def seal(store: Path, attributes: Mapping[Any, Any] | None = None) -> None:
+    """Set attributes of the root of a Zarr store, and store a hash of all metadata."""
+    metadata = _metadata_files(store)
+    metadata[".zattrs"] |= attributes or {}
     metadata[".zattrs"][METADATA] = _digest(metadata)
-    (store / ".zattrs").write_text(json.dumps(metadata[".zattrs"], indent=2))
-    consolidated = {"metadata": metadata, "zarr_consolidated_format": 1}
-    (store / ".zmetadata").write_text(json.dumps(consolidated, indent=2))
+    _replace(store / ".zattrs", metadata[".zattrs"])
 
 
 def close(store: Path) -> None:
-    """Store a hash of all chunks of a Zarr store, once all chunks are written.
+    """Write all metadata of a complete store, and a hash of its chunks, into one file.
 
     The checksum of a chunk shows damage, but not that the chunk stands in another place.
     """
-    digest = _chunk_digest(store, metadata_of(store))
-    consolidated = json.loads((store / ".zmetadata").read_bytes()) | {CHUNKS: digest}
-    draft = store / ".zmetadata.partial"
-    draft.write_text(json.dumps(consolidated, indent=2))
-    os.replace(draft, store / ".zmetadata")
+    metadata = metadata_of(store, closed=False)
+    consolidated = {"metadata": metadata, "zarr_consolidated_format": 1}
+    _replace(store / ".zmetadata", consolidated | {CHUNKS: _chunk_digest(store, metadata)})
+
+
+def _replace(file: Path, content: Mapping[str, Any]) -> None:
+    draft = file.with_name(f"{file.name}.partial")
+    draft.write_text(json.dumps(content, indent=2))
+    os.replace(draft, file)
+
+
+def _metadata_files(store: Path) -> dict[str, Any]:
+    """Contents of the metadata files of all groups and arrays of a store, by file name."""
+    files = sorted(path for name in _METADATA_FILES for path in store.rglob(name))
+    return {path.relative_to(store).as_posix(): json.loads(path.read_bytes()) for path in files}
 
 
 def _chunk_digest(store: Path, metadata: Mapping[str, Any]) -> str:
@@ -162,8 +172,14 @@ def check_nodes(store: Path) -> None:
             zarr.open(file.parent, mode="r")
 
 
-def metadata_of(store: Path) -> dict[str, Any]:
+def metadata_of(store: Path, *, closed: bool = True) -> dict[str, Any]:
     """Read the metadata of a store as a dict by file name, and compare them with the stored hash.
+
+    Parameters
+    ----------
+    store : Path
+    closed : bool
+        Whether the store is complete, so that one file holds all metadata, too.
 
     Raises
     ------
@@ -171,8 +187,10 @@ def metadata_of(store: Path) -> dict[str, Any]:
         If they do not match the stored hash.
     """
     try:
-        metadata = json.loads((store / ".zmetadata").read_bytes())["metadata"]
-        files = {name: json.loads((store / name).read_bytes()) for name in metadata}
+        files = metadata = {} if closed else _metadata_files(store)
+        if closed:
+            metadata = json.loads((store / ".zmetadata").read_bytes())["metadata"]
+            files = {name: json.loads((store / name).read_bytes()) for name in metadata}
         intact = _text(files) == _text(metadata) and metadata[".zattrs"][METADATA] == _digest(files)
     except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
         intact = False
@@ -215,7 +233,7 @@ def missing_blocks(store: Path, along: str) -> set[int]:
     OutputError
         If what all blocks share is damaged: metadata, or arrays without blocks.
     """
-    metadata, missing = metadata_of(store), set[int]()
+    metadata, missing = metadata_of(store, closed=False), set[int]()
     for name in _arrays(metadata):
         array, in_blocks = metadata[f"{name}/.zarray"], metadata[f"{name}/.zattrs"][DIMENSIONS]
         for chunk in _chunks(array):

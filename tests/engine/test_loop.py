@@ -250,7 +250,7 @@ def test_a_damaged_block_where_none_is_missing(
     [
         f"store/{name}"
         for name in (
-            ".zattrs", ".zgroup", ".zmetadata", "square/.zarray", "square/.zattrs",
+            ".zattrs", ".zgroup", "square/.zarray", "square/.zattrs",
             "member/.zattrs", "constant/0", "constant/.zattrs", "column/0",
         )
     ] + [blocks.REQUEST],

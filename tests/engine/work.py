@@ -14,11 +14,6 @@ import xarray as xr
 from earthspin.engine.blocks import Layout
 
 
-def without_ranges(answer: xr.Dataset) -> xr.Dataset:
-    """Return an answer with the scene alone: a store written in blocks has no ranges of numbers."""
-    return answer.assign_attrs(scene=answer.attrs["scene"].partition("\n# made: ")[0])
-
-
 @dataclass
 class Squares:
     """The squares of 0 to n - 1, by blocks, with as many words and dates as a store must keep."""
