@@ -234,10 +234,14 @@ def _report(options: Namespace) -> None:
 
 def _play(options: Namespace) -> None:
     """Command `play`: write an interactive HTML page about the chosen topic."""
+    from earthspin.views.closing_line import run_time
     from earthspin.views.play import write_page
 
+    begun = time.perf_counter()
     page = write_page(options.what, options.out or f"play-{options.what}.html")
+    computation_time = time.perf_counter() - begun
     _print_written(page)
+    print(run_time(computation_time))
     if options.open:
         _open(page)
 

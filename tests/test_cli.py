@@ -70,7 +70,9 @@ def test_the_command_alone_says_what_to_try(capsys: pytest.CaptureFixture[str]) 
 def test_play_writes_a_page(what: str, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     page = tmp_path / "page.html"
     status, out, err = run(capsys, "play", what, "--out", str(page))
-    assert (status, out, err) == (0, f"wrote {page}\n", "")
+    wrote, time = out.splitlines()
+    assert (status, wrote, err) == (0, f"wrote {page}", "")
+    assert re.fullmatch(r"\S+ s, of it \S+ s computation", time)
     assert "<canvas" in page.read_text(encoding="utf-8")
 
 

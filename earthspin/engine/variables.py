@@ -31,6 +31,7 @@ _SI = (
 #: Factor from SI to each unit of results.
 FROM_SI: dict[str, float] = {
     "arcsec/yr": 1 / ARCSEC_PER_YEAR,
+    "mas/cy": 1e5 / ARCSEC_PER_YEAR,
     "arcsec": 1 / ARCSEC,
     "mas": 1 / MAS,
     "deg": 180 / math.pi,

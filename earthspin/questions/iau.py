@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -111,35 +112,35 @@ _PUBLISHED = "the published table gives no errors"
 _ADOPTED = "a model that was adopted, exact by definition"
 
 
+_rate = partial(number, "arcsec/yr", shown="mas/cy")
+_measured_rate = partial(measured, "arcsec/yr", shown="mas/cy")
+
+
 class EffectRates(Variables, no_error="a measure of error itself"):
     """Contribution of each effect to the rates of psi_A and omega_A; differences from IAU 2006."""
 
-    psi_rate = measured(
-        "arcsec/yr",
+    psi_rate = _measured_rate(
         "contribution to the rate of psi_A at J2000.0: the rate minus that without the effect",
         along=("effect",),
     )
-    psi_rate_published = number(
-        "arcsec/yr",
+    psi_rate_published = _rate(
         "published contribution; 0 where the table has none",
         along=("effect",),
         no_error=_PUBLISHED,
     )
-    omega_rate = measured("arcsec/yr", "contribution to the rate of omega_A", along=("effect",))
-    psi_rate_total = measured("arcsec/yr", "computed rate of psi_A at J2000.0")
-    omega_rate_total = measured("arcsec/yr", "computed rate of omega_A at J2000.0")
-    psi_rate_iau = number("arcsec/yr", "rate of psi_A at J2000.0, IAU 2006", no_error=_ADOPTED)
-    omega_rate_iau = number("arcsec/yr", "rate of omega_A at J2000.0, IAU 2006", no_error=_ADOPTED)
-    closure = number(
-        "arcsec/yr",
+    omega_rate = _measured_rate("contribution to the rate of omega_A", along=("effect",))
+    psi_rate_total = _measured_rate("computed rate of psi_A at J2000.0")
+    omega_rate_total = _measured_rate("computed rate of omega_A at J2000.0")
+    psi_rate_iau = _rate("rate of psi_A at J2000.0, IAU 2006", no_error=_ADOPTED)
+    omega_rate_iau = _rate("rate of omega_A at J2000.0, IAU 2006", no_error=_ADOPTED)
+    closure = _rate(
         "computed rate plus the published non-linear term minus the IAU's rate",
         error="psi_rate_total_error",
     )
-    omega_closure = number(
-        "arcsec/yr", "computed rate of omega_A minus the IAU's", error="omega_rate_total_error"
+    omega_closure = _rate(
+        "computed rate of omega_A minus the IAU's", error="omega_rate_total_error"
     )
-    omega_closure_with_tides = number(
-        "arcsec/yr",
+    omega_closure_with_tides = _rate(
         "omega_closure with the published effect of tides in obliquity",
         error="omega_rate_total_error",
     )
@@ -149,12 +150,10 @@ class EffectRates(Variables, no_error="a measure of error itself"):
     closure_over_uncertainty = number(
         "1", "closure divided by the combined uncertainty from H and from the analysis"
     )
-    psi_rate_analysis_error = number(
-        "arcsec/yr", "error of the analysis, found from the rate of the IAU's own pole"
+    psi_rate_analysis_error = _rate(
+        "error of the analysis, found from the rate of the IAU's own pole"
     )
-    omega_rate_analysis_error = number(
-        "arcsec/yr", "error of the analysis, found from the IAU's rate of omega_A"
-    )
+    omega_rate_analysis_error = _rate("error of the analysis, found from the IAU's rate of omega_A")
     effect = labels()
 
 

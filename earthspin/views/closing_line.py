@@ -11,7 +11,7 @@ from earthspin.engine.run import run_time_words
 from earthspin.engine.variables import error_of, from_si, largest_of
 from earthspin.number_text import plain, shown_unit
 from earthspin.process import seconds_since_start
-from earthspin.views.result_contents import Result, dataset_of, question_of
+from earthspin.views.result_contents import Result, dataset_of, in_shown_units, question_of
 
 #: Words for shares of an error whose names end otherwise.
 WORDS = {"input": "inputs", "kernel": "positions"}
@@ -38,10 +38,13 @@ def closing_line(result: Result, computation_time: float | None = None) -> str:
     answer = dataset_of(result)
     if isinstance(result, xr.DataTree) and "plan" in result.children:
         computation_time = float(result["plan"].computation_time)
-    cost = ""
-    if computation_time is not None:
-        cost = run_time_words(seconds_since_start(), computation_time)
+    cost = "" if computation_time is None else run_time(computation_time)
     return "; ".join(filter(None, (_error(answer), *_conditions(result), cost)))
+
+
+def run_time(computation_time: float) -> str:
+    """Wall time since this process began, and the given run time of the computation, as text."""
+    return run_time_words(seconds_since_start(), computation_time)
 
 
 def _conditions(result: Result) -> list[str]:
@@ -59,7 +62,7 @@ def _error(answer: xr.Dataset) -> str:
     question = question_of(answer)
     if question is None or question.headline not in answer:
         return ""
-    name = question.headline
+    answer, name = in_shown_units(answer, question), question.headline
     value = answer[name]
     label = name.removesuffix("_error").replace("_", " ")
     error_name = error_of(answer, name)
@@ -88,8 +91,9 @@ def _error(answer: xr.Dataset) -> str:
         size *= float(np.abs(value).max())
         unit = value.attrs["units"]
     effect, left_out, its_unit = largest_of(answer.attrs.get("neglected", "")) or ("", 0.0, "1")
-    if abs(left_out) / from_si(its_unit) > size / from_si(unit):
-        text += f"; not modelled: {effect}, {plain(left_out)}{shown_unit(its_unit)}"
+    left_out *= from_si(unit) / from_si(its_unit)
+    if abs(left_out) > size:
+        text += f"; not modelled: {effect}, {plain(left_out)}{shown_unit(unit)}"
     return text
 
 

@@ -8,7 +8,7 @@ from earthspin.bodies import MOON
 from earthspin.constants import DAY, DAYS_PER_YEAR
 from earthspin.interior.named import CORE_NUTATION
 from earthspin.motion.effects import NONRIGID
-from earthspin.views import drawing, tables
+from earthspin.views import drawing
 from earthspin.views.drawing import Axes, PageFigure, Views, axes, note
 from earthspin.views.result_contents import Result, answer_of, section
 from earthspin.views.tables import Column, TextTable, table_along
@@ -77,16 +77,13 @@ MODELS = {
 
 def budget(tree: Result) -> TextTable:
     """Table of contributions to the precession rate, with the sum and the sum minus IAU 2006."""
-    rates = answer_of(tree).map(lambda rate: rate * tables.MAS_PER_CENTURY)
+    rates = answer_of(tree)
 
     def rate(name: str, head: str) -> Column:
         return Column(name, lambda row: f"{float(row[name]):+z.3f}" if row[name] else "", head)
 
-    columns = (
-        rate("psi_rate", "psi_A, mas/cy"),
-        rate("psi_rate_published", "published"),
-        rate("omega_rate", "omega_A, mas/cy"),
-    )
+    heads = {"psi_rate": "psi_A, mas/cy", "psi_rate_published": "published"}
+    columns = [rate(*item) for item in (heads | {"omega_rate": "omega_A, mas/cy"}).items()]
     total, iau, omega = rates.psi_rate_total, rates.psi_rate_iau, rates.omega_rate_total
     closure = f"{float(rates.closure):+z.3f}", "", f"{float(rates.omega_closure):+z.3f}"
     more = [
@@ -169,10 +166,10 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     ):
         # exactly zero if an effect leaves the rate as it is, or has no published value
         drawn = answer[name].values != 0
-        sizes, at = answer[name].values[drawn] * tables.MAS_PER_CENTURY, place[drawn] + by
+        sizes, at = answer[name].values[drawn], place[drawn] + by
         ax.hlines(at, 0, sizes, color=colour, lw=0.8, alpha=0.6)
         ax.plot(sizes, at, marker, color=colour, ms=5, label=words)
-    closure = float(answer.closure) * tables.MAS_PER_CENTURY
+    closure = float(answer.closure)
     ax.axvline(0, color="0.4", lw=0.8, zorder=0)
     words = drawing.minus(f"closure, {closure:+.1f} mas per century")
     ax.axvline(closure, color=drawing.RED, lw=1, ls="--", label=words)
@@ -180,7 +177,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.invert_yaxis()
     ax.set_xscale("symlog", linthresh=LINEAR)
     reach = 2 * float(abs(answer[["psi_rate", "psi_rate_published"]]).to_array().max())
-    ax.set_xlim(-reach * tables.MAS_PER_CENTURY, reach * tables.MAS_PER_CENTURY)
+    ax.set_xlim(-reach, reach)
     words = "contribution to the rate of $\\psi_A$\nbesides the first order (mas per century)"
     ax.set_xlabel(words)
     drawing.legend_above(ax)

@@ -155,14 +155,22 @@ def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
         return data
     declared = question.graph.variables
     first = _in_order(data.isel(dict.fromkeys(_case_dims(data, attrs), 0)), question)
+    first = in_shown_units(first, question)
     for name in first.variables.keys() & declared.keys():
         first[name] = first[name].transpose(*declared[str(name)].dims, ..., missing_dims="ignore")
-        unit = declared[str(name)].shown
-        if unit and first[name].attrs.get("units") == declared[str(name)].units:
-            scaled = first[name] * (from_si(unit) / from_si(declared[str(name)].units))
-            first[name] = scaled.assign_attrs(first[name].attrs | {"units": unit})
         first[name].attrs |= {"short": declared[str(name)].short}
     return first
+
+
+def in_shown_units(data: xr.Dataset, question: type[Question]) -> xr.Dataset:
+    """Convert variables to the units of tables and axes, where those of the numbers are others."""
+    converted = {}
+    for name in data.variables.keys() & question.graph.variables.keys():
+        declared, array = question.graph.variables[str(name)], data[name]
+        if declared.shown and array.attrs.get("units") == declared.units:
+            scaled = array * (from_si(declared.shown) / from_si(declared.units))
+            converted[name] = scaled.assign_attrs(array.attrs | {"units": declared.shown})
+    return data.assign(converted)
 
 
 def _in_order(data: xr.Dataset, question: type[Question]) -> xr.Dataset:

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from earthspin.engine.variables import error_of, from_si, texts_as_columns
 from earthspin.views.result_contents import Result, answer_of, section
 
-MAS_PER_CENTURY = 1e5  # of an arcsec/yr
 #: Below and from here on, numbers are written with a power of ten.
 SMALL, LARGE = 1e-6, 1e9
 #: Text of a cell up to this length stands on one line.

@@ -16,6 +16,7 @@ from earthspin import EARTH, cli
 from earthspin.engine.variables import largest_of
 from earthspin.scenes import QUESTIONS
 from earthspin.views.closing_line import closing_line
+from earthspin.views.rendering import tables_for
 from tests import shipped
 
 
@@ -63,6 +64,26 @@ def test_a_headline_names_an_epoch_of_the_answer() -> None:
     assert float(re.findall(r"at epoch (\S+) yr", line)[0]) in answer.epoch.values
 
 
+@pytest.mark.parametrize("scene", ["polar-motion", "forecast", "iau"])
+def test_the_line_has_the_unit_of_the_tables(scene: str) -> None:
+    """The error of the pole was given in arcsec beside tables in mas."""
+    answer = shipped.answer(scene)
+    name = QUESTIONS[answer.attrs["compute"]].headline
+    unit = {"iau": "mas/cy"}.get(scene, "mas")
+    size, own = re.findall(r"95 % error (\S+) (\S+?)(?: at|;|$)", closing_line(answer))[0]
+    assert own == unit
+    error = answer[answer[name].attrs["ancillary_variables"]]
+    factor = (1 * u.Unit(error.attrs["units"])).to_value(unit.replace("cy", "hyr"))
+    assert float(size) == pytest.approx(float(error.max()) * factor, rel=0.05, abs=0)
+    shown = " ".join(" ".join(table.headers) for table in tables_for(answer))
+    assert f", {unit}" in shown
+
+
+def test_a_neglected_effect_has_the_unit_of_the_error() -> None:
+    line = closing_line(shipped.answer("iau"))
+    assert re.search(r"error \S+ mas/cy; not modelled: nonrigid, -21 mas/cy", line), line
+
+
 def test_an_effect_is_named_only_where_it_exceeds_the_error() -> None:
     assert "not modelled: geodesic" in closing_line(earthspin.precession())
     vague = EARTH.replace(relative_uncertainty={"dynamical_flattening": 0.01})
@@ -86,7 +107,12 @@ def test_it_is_the_last_line_of_the_command(capsys: pytest.CaptureFixture[str]) 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "words", ["run precession", "ensemble precession --members 10 --out {}/e.zarr"]
+    "words",
+    [
+        "run precession",
+        "ensemble precession --members 10 --out {}/e.zarr",
+        "play top --out {}/top.html",
+    ],
 )
 def test_the_line_gives_the_wall_time_of_the_process(words: str, tmp_path: Path) -> None:
     """As a clock outside has it; the process was 0.3 s long, or longer, before it was asked."""
@@ -95,6 +121,6 @@ def test_the_line_gives_the_wall_time_of_the_process(words: str, tmp_path: Path)
     process = subprocess.run(command, capture_output=True, text=True, check=True)
     outside = time.monotonic() - begun
     last = process.stdout.splitlines()[-1]
-    inside, work = map(float, re.findall(r"; (\S+) s, of it (\S+) s computation$", last)[0])
+    inside, work = map(float, re.findall(r"(\S+) s, of it (\S+) s computation$", last)[0])
     assert 0.5 * outside < inside < outside + 0.05 + 0.05 * inside
     assert work < inside
