@@ -220,12 +220,11 @@ class Answer:
             if not changed or unit_of[changed[0]] == "1":
                 known = ", ".join(c for c in unit_of if unit_of[c] != "1")
                 raise SceneError("units", name, f"columns with a unit: {known}")
+            own = unit_of[changed[0]]
+            factor = quantity(f"1 {unit}", own, Where(f"units of {name}"), f"1 {own}")
             changed += [c for c in names if c.startswith(name + _ERROR)]
-            for column in (c for c in changed if unit_of[c] == unit_of[changed[0]]):
-                frame[column] = _converted(frame[column], unit_of[column], unit, name)
-            unit_of |= dict.fromkeys(
-                (c for c in changed if unit_of[c] == unit_of[changed[0]]), unit
-            )
+            for column in (c for c in changed if unit_of[c] == own):
+                frame[column], unit_of[column] = as_written(frame[column], 1 / factor), unit
         frame.attrs["units"] = unit_of
         return frame
 
@@ -432,12 +431,6 @@ def _without_inherited(node: xr.DataTree) -> xr.Dataset:
     """Return the Dataset of a tree node, without dimensions inherited from the root of the tree."""
     data = node.to_dataset()
     return data.drop_dims(data.sizes.keys() - node.to_dataset(inherit=False).sizes.keys())
-
-
-def _converted(numbers: Any, own: str, unit: str, name: str) -> Any:
-    """Convert numbers to another unit."""
-    factor = quantity(f"1 {unit}", own, Where(f"units of {name}"), f"1 {own}")
-    return as_written(numbers, 1 / factor)
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:

@@ -31,19 +31,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
-from earthspin.engine import atomic_writes
+from earthspin.engine import atomic_writes, store
 from earthspin.engine.origin import with_labels
 from earthspin.engine.question import BLOCK, Block, Question, scene_text
 from earthspin.engine.run import Run
-from earthspin.engine.store import (
-    MADE_OF,
-    OF_FILES,
-    VERSION,
-    encoding_of,
-    open_groups,
-    verify,
-    zarr_of,
-)
 from earthspin.engine.variables import spelled
 from earthspin.errors import MissingExtraError, OutputError, SceneError, Where, one_line
 from earthspin.progress import progress
@@ -108,7 +99,7 @@ def missing_blocks(folder: Path, layout: Layout) -> list[int]:
         If the metadata, or a variable that is not written in blocks, is damaged.
     """
     try:
-        return sorted(zarr_of().missing_blocks(folder / STORE, layout.along))
+        return sorted(store.zarr_of().missing_blocks(folder / STORE, layout.along))
     except OutputError:
         raise _damaged(folder, "the part that its blocks share is") from None
 
@@ -123,18 +114,18 @@ def finish(folder: Path, layout: Layout, target: Path) -> None:
     OutputError
         If a file does not match its checksum; the next run makes its block again.
     """
-    store = folder / STORE
-    for stray in store.rglob("*.partial"):  # a chunk whose writer was killed
+    path = folder / STORE
+    for stray in path.rglob("*.partial"):  # a chunk whose writer was killed
         stray.unlink()
     if missing_blocks(folder, layout):
         problem = "a block differs from what was just written"
         raise OutputError(folder, problem, "check the disk and run it again")
-    whole = open_groups(store, engine="zarr", consolidated=False)["/"]
+    whole = store.open_groups(path, engine="zarr", consolidated=False)["/"]
     parts = (slice(*layout.bounds(number)) for number in range(layout.count))
     with_labels(whole, (whole.isel({layout.along: part}).load() for part in parts))
-    zarr_of().seal(store, whole.attrs)
-    zarr_of().close(store)
-    atomic_writes.put_in_place(store, target, folder)
+    store.zarr_of().seal(path, whole.attrs)
+    store.zarr_of().close(path)
+    atomic_writes.put_in_place(path, target, folder)
     atomic_writes.remove(folder)
 
 
@@ -154,14 +145,14 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
     OutputError
         If the folder does not exist, or the block does not fit into the store.
     """
-    store = folder / STORE
-    if not store.is_dir():
+    path = folder / STORE
+    if not path.is_dir():
         raise OutputError(folder, "it was removed while it was written", "run it again")
     constant = [n for n, variable in block.variables.items() if layout.along not in variable.dims]
     # With an index, to_zarr would not write the coordinate along the region.
     grown = block.drop_vars(constant).drop_indexes(layout.along, errors="ignore")
     try:
-        zarr_of().write_region(grown, store, {layout.along: slice(*layout.bounds(number))})
+        store.zarr_of().write_region(grown, path, {layout.along: slice(*layout.bounds(number))})
     except ValueError as error:
         raise OutputError(folder, f"block {number} does not fit: {one_line(error)}") from None
 
@@ -238,11 +229,11 @@ def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Da
     OutputError
         If the complete store does not fit on the disk.
     """
-    zarr_folder = zarr_of()
+    zarr_folder = store.zarr_of()
     whole = first.nbytes / layout.length(0) * layout.size
     atomic_writes.refuse_what_does_not_fit(folder, whole, f"{layout.size} {layout.along}s")
-    node = spelled(first).assign_attrs(OF_FILES | {MADE_OF: digest(request)})
-    encoding = encoding_of(node)
+    node = spelled(first).assign_attrs(store.OF_FILES | {store.MADE_OF: digest(request)})
+    encoding = store.encoding_of(node)
     for name, variable in node.variables.items():
         if layout.along in variable.dims:
             encoding[str(name)]["chunks"] = variable.shape
@@ -327,10 +318,10 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     if place.suffix != ".zarr":
         remedy = "long results can only be written to Zarr"
         raise OutputError(place, "its name does not end in .zarr", remedy)
-    zarr_of()
+    store.zarr_of()
     target, layout = atomic_writes.prepared(place), work.layout
     size = f"{layout.size} along {layout.along} by {layout.block}"
-    request = dict(work.request) | {"size": size, "format of files": str(VERSION)}
+    request = dict(work.request) | {"size": size, "format of files": str(store.VERSION)}
     stay = f"finished blocks stay in {target.name}{PARTIAL}"
     remedy = f"{stay}: free some space and run it again"
     with atomic_writes.output_errors(place, remedy), claimed(target) as folder:
@@ -340,10 +331,9 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
             raise OutputError(place, "a store of another question exists there", "move it away")
         refuse_another(folder, request)
         if complete:
-            atomic_writes.remove(
-                folder
-            )  # a run that was killed after its last block can have left it
-            return verify(place)
+            # a run that was killed after its last block can have left it
+            atomic_writes.remove(folder)
+            return store.verify(place)
         if not (folder / STORE).exists():
             begin(folder, request, layout, work.make(0))
         _complete(work, folder, target, client)
@@ -499,7 +489,7 @@ def _digest_of_store(target: Path) -> str | None:
     if not target.exists():
         return None
     try:
-        return str(json.loads((target / ".zattrs").read_bytes())[MADE_OF])
+        return str(json.loads((target / ".zattrs").read_bytes())[store.MADE_OF])
     except (OSError, ValueError, LookupError, TypeError):  # treat it as another store
         return ""
 

@@ -10,7 +10,6 @@ import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cache
 from importlib import import_module
 from itertools import groupby
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
@@ -370,7 +369,8 @@ class Run:
 
     def _load_modules(self, names: Iterable[str]) -> None:
         """Import the modules that some parts (functions) need, so that run times exclude this."""
-        _load_xarray()
+        import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
+
         for name in self.dependencies(names):
             if name in self.graph.parts:
                 for module in self.graph.parts[name].loads:
@@ -384,12 +384,6 @@ class Run:
                 if clash := own and self.graph.labels & own:
                     problem = "results already have this name; rename the dimension of the array"
                     raise self.question.error(f"{name}.{inner}", min(clash), problem)
-
-
-@cache
-def _load_xarray() -> None:
-    """Import xarray, and register `ds.earthspin`."""
-    import earthspin.engine.accessor  # noqa: F401
 
 
 @contextmanager
