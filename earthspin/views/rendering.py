@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
@@ -103,7 +103,8 @@ def drawings_for(tree: Result) -> list[Drawing]:
 
     Data that have no figure of their own, such as means, are drawn over their longest dimension.
     """
-    figures = [] if _is_one_instant(tree) else _views(tree).figures
+    one_instant = "time" in tree.coords and tree.sizes.get("time", 1) < 2
+    figures = [] if one_instant else _views(tree).figures
     drawings = [d for made in _made(tree, [figure.drawings for figure in figures]) for d in made]
     whole = is_whole(dataset_of(tree))
     return drawings if drawings or whole else any_drawing(ascending(laid_out(dataset_of(tree))))
@@ -138,10 +139,6 @@ def _made(tree: Result, makers: Iterable[Callable[[Result], T]]) -> list[T]:
             warnings.simplefilter("error", RuntimeWarning)
             made.append(make(part))
     return made
-
-
-def _is_one_instant(tree: Result) -> bool:
-    return "time" in tree.coords and tree.sizes.get("time", 1) < 2
 
 
 def _views(tree: Result) -> Views:
@@ -341,53 +338,38 @@ def write_json(tree: xr.DataTree, stream: TextIO) -> None:
     tree : DataTree
     stream : text file
     """
-    _write_node(tree, stream)
-    sections = {name: node for name, node in tree.children.items() if name != "plan"}
-    if sections:
-        _write_members("sections", sections, _write_node, stream)
-    stream.write("}\n")
+    content, sections = _node(tree), tree.children.items()
+    if others := {name: _node(section) for name, section in sections if name != "plan"}:
+        content["sections"] = others
+    stream.writelines(_json_of(content))
+    stream.write("\n")
 
 
-def _write_members(
-    title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
-) -> None:
-    """Write a dict as an entry of a JSON object; the function `write` omits each closing brace."""
-    stream.write(f',\n"{title}": {{')
-    for number, (name, member) in enumerate(members.items()):
-        stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")
-        write(member, stream)
-        stream.write("}")
-    stream.write("\n}")
+def _node(node: xr.DataTree) -> dict[str, Any]:
+    return texts_as_columns(node.earthspin.dataset).to_dict(data="array")
 
 
-def _write_node(node: xr.DataTree, stream: TextIO) -> None:
-    data = texts_as_columns(node.earthspin.dataset)
-    stream.write(f'{{"attrs": {_text(data.attrs)},\n"dims": {_text(data.sizes)}')
-    _write_members("coords", data.coords, _write_array, stream)
-    _write_members("data_vars", data.data_vars, _write_array, stream)
-
-
-def _write_array(array: xr.DataArray, stream: TextIO) -> None:
-    values = array.values
-    stream.write(f'{_text({"dims": array.dims, "attrs": array.attrs})[:-1]}, "data": ')
-    if values.ndim == 0:
-        stream.write(_text(values))
-        return
-    rows = max(1, AT_ONCE * values.shape[0] // max(1, values.size))
-    stream.write("[")
-    for first in range(0, values.shape[0], rows):
-        stream.write(("," if first else "") + _text(values[first : first + rows])[1:-1])
-    stream.write("]")
-
-
-def _text(value: Any) -> str:
-    return json.dumps(_plain(value), default=str)
+def _json_of(value: Any) -> Iterator[str]:
+    """Yield the JSON text of a value in pieces, of which none holds many numbers."""
+    if isinstance(value, Mapping):
+        yield "{"
+        for number, (key, inner) in enumerate(value.items()):
+            yield f"{',' if number else ''}\n{json.dumps(str(key))}: "
+            yield from _json_of(inner)
+        yield "}"
+    elif isinstance(value, np.ndarray) and value.size > AT_ONCE:
+        rows = max(1, AT_ONCE * len(value) // value.size)
+        yield "["
+        for first in range(0, len(value), rows):
+            piece = json.dumps(_plain(value[first : first + rows]))
+            yield f"{',' if first else ''}{piece[1:-1]}"
+        yield "]"
+    else:
+        yield json.dumps(_plain(value), default=str)
 
 
 def _plain(value: Any) -> Any:
     """Convert arrays, dates and infinite numbers to types that JSON can represent."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(inner) for key, inner in value.items()}
     if isinstance(value, (np.ndarray, np.generic)):
         if value.dtype.kind == "f" and np.isfinite(value).all():
             return value.tolist()

@@ -13,6 +13,7 @@ import pytest
 import earthspin
 from earthspin import SceneError
 from earthspin.engine import store
+from earthspin.engine.variables import texts_as_columns
 from earthspin.views.tables import TextTable
 from earthspin.views.terminal import Terminal
 
@@ -269,8 +270,8 @@ def test_json_is_what_it_was(tmp_path: Path) -> None:
             if name != "plan":
                 own = node.to_dataset(inherit=False)
                 labels = {n: c for n, c in tree.coords.items() if {*c.dims} & {*own.sizes}}
-                sections[name] = own.assign_coords(labels).to_dict()
-        expected = plain(tree.to_dataset().to_dict() | {"sections": sections})
+                sections[name] = texts_as_columns(own.assign_coords(labels)).to_dict()
+        expected = plain(texts_as_columns(tree.to_dataset()).to_dict() | {"sections": sections})
         assert json.loads(found.stdout) == expected
 
 
