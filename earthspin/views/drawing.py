@@ -187,14 +187,11 @@ class PageFigure:
     phone: float = 0.0
     points: int = 0
 
-    def is_there(self, tree: Result) -> bool:
-        """Return True if a result has the section and meets the condition of this figure."""
-        is_present = not self.section or stored_section(tree, self.section) is not None
-        return is_present and (self.applies is None or self.applies(tree))
-
     def drawings(self, tree: Result) -> list[Drawing]:
         """Draw the figure for a result that has what it needs; empty for others."""
-        return [self.drawn(tree)] if self.is_there(tree) else []
+        is_present = not self.section or stored_section(tree, self.section) is not None
+        applies = is_present and (self.applies is None or self.applies(tree))
+        return [self.drawn(tree)] if applies else []
 
     @style()
     def drawn(self, tree: Result) -> Drawing:
@@ -205,6 +202,18 @@ class PageFigure:
         if self.phone:
             phone = figure_of(self.plot(tree, ax=axes(None, NARROW, self.phone)))
         return Drawing(self.title, caption, figure, self.square, phone)
+
+
+def page_figure(
+    title: str, caption: str | Callable[[Result], str], **options: Any
+) -> Callable[[T], T]:
+    """Decorate a function that plots a result: it draws a `PageFigure` of pages and reports."""
+
+    def decorated(plot: Any) -> Any:
+        plot.on_page = PageFigure(title, caption, plot, **options)
+        return plot
+
+    return decorated
 
 
 def _side_by_side(plot: Callable[..., Axes | Figure], cases: Mapping[str, Result]) -> Figure:
@@ -230,7 +239,8 @@ class Views:
 
     Attributes
     ----------
-    figures : sequence of PageFigure
+    plots : sequence of callable
+        Functions that `page_figure` decorates, in the order of the page.
     solids, tables : sequence of (str, callable)
         Names of the sections that it needs, and the function that makes it. A table replaces that
         of the answer, if it names no section, or those of the sections that it names.
@@ -238,10 +248,15 @@ class Views:
         Function that makes the first sentence of the page.
     """
 
-    figures: Sequence[PageFigure] = ()
+    plots: Sequence[Callable[..., Axes | Figure]] = ()
     solids: Makers[Solid] = ()
     tables: Makers[TextTable] = ()
     lead: Callable[[Result], str] | None = None
+
+    @property
+    def figures(self) -> list[PageFigure]:
+        """Figures of pages, in their order."""
+        return [plot.on_page for plot in self.plots]  # type: ignore[attr-defined]
 
 
 def figure_of(shown: Axes | Figure) -> Figure:

@@ -11,8 +11,7 @@ import xarray as xr
 from earthspin.engine.accessor import inputs_of, members_needed
 from earthspin.engine.members import MEMBER
 from earthspin.errors import SceneError
-from earthspin.numerics.arrays import FloatArray
-from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, Views, axes, literal
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Views, axes, literal, page_figure
 from earthspin.views.result_contents import Result, dataset_of, question_of
 from earthspin.views.tables import TextTable, short_exponents, tables_of, with_error
 
@@ -97,13 +96,6 @@ def _percentages(answer: xr.Dataset) -> xr.Dataset:
     return xr.Dataset({name: share, f"{name}_error": half}, {"input": labels})
 
 
-def _shares(answer: xr.Dataset) -> tuple[list[VaryingNumber], FloatArray]:
-    """List of main numbers, and share of each input in the variance of each number."""
-    result, name = answer.earthspin.sensitivity(), _main_variable(answer)
-    rows = [number for number in _numbers(answer) if number.name == name]
-    return rows, np.array([result[f"{name}_share"].sel(n.labels).values for n in rows])
-
-
 def lead(tree: Result) -> str:
     """Sentence with an ensemble's main quantity, and the input that causes most of its spread."""
     answer = dataset_of(tree)
@@ -120,12 +112,11 @@ def lead(tree: Result) -> str:
     return f"{words} {100 * float(share.max()):.1f} % of the variance comes from {cause}."
 
 
-def _caption_of_spread(tree: Result) -> str:
-    answer = dataset_of(tree)
-    words = _main_number(answer).words.capitalize()
-    return f"{words}, of {answer.sizes[MEMBER]} members; the band is the central 95 %."
-
-
+@page_figure(
+    "How the members spread",
+    "Main number of the members minus its median; the band is the central 95 %.",
+    applies=lambda tree: bool(_numbers(dataset_of(tree))),
+)
 def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Axes:
     """Draw a histogram of one quantity over the ensemble members, with its central 95 % as a band.
 
@@ -157,6 +148,11 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
     return ax
 
 
+@page_figure(
+    "Where the spread comes from",
+    "Share of each input in the variance of the members.",
+    applies=lambda tree: bool(_numbers(dataset_of(tree))) and _enough(dataset_of(tree)),
+)
 def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the share of each input in the variance of the main numbers, as bars.
 
@@ -173,8 +169,13 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = dataset_of(result)
     if not _numbers(answer):
         raise SceneError("ensemble", answer.attrs["title"], _alike(answer))
-    rows, share = _shares(answer)
-    rows, share, inputs = rows[:MOST_ROWS], share[:MOST_ROWS], [*inputs_of(answer)]
+    result, name, inputs = (
+        answer.earthspin.sensitivity(),
+        _main_variable(answer),
+        [*inputs_of(answer)],
+    )
+    rows = [number for number in _numbers(answer) if number.name == name][:MOST_ROWS]
+    share = np.array([result[f"{name}_share"].sel(row.labels).values for row in rows])
     order = np.argsort(-share.max(axis=0))
     shown = [int(i) for i in order if share[:, i].max() >= SMALL][:MOST_COLOURS]
     ax = axes(ax, 7.5, 1.2 + 0.32 * len(rows))
@@ -191,23 +192,7 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-VIEWS = Views(
-    figures=[
-        PageFigure(
-            "How the members spread",
-            _caption_of_spread,
-            plot_spread,
-            applies=lambda tree: bool(_numbers(dataset_of(tree))),
-        ),
-        PageFigure(
-            "Where the spread comes from",
-            "Share of each input in the variance of the members.",
-            plot_shares,
-            applies=lambda tree: bool(_numbers(dataset_of(tree))) and _enough(dataset_of(tree)),
-        ),
-    ],
-    lead=lead,
-)
+VIEWS = Views([plot_spread, plot_shares], lead=lead)
 
 
 # --- what is shown -------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ from earthspin.constants import EPSILON_0
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
-from earthspin.views.drawing import Axes, PageFigure, Views, axes
+from earthspin.views.drawing import Axes, Views, axes, page_figure
 from earthspin.views.result_contents import Result, answer_of, section
 from earthspin.views.star_chart import YEARS, plot_path, project, year_labels
 
@@ -20,21 +20,17 @@ from earthspin.views.star_chart import YEARS, plot_path, project, year_labels
 BANDS = "Bands are 95 % half-widths; where none is seen, it is thinner than the line."
 
 
-def _caption_of_climate(tree: Result) -> str:
-    first, last = in_order(answer_of(tree)).epoch.values[[0, -1]] / 1000
-    return (
-        f"From {first:g} to {last:g} kyr from J2000.0. Climatic precession is the eccentricity "
-        "times the sine of the longitude of perihelion from the moving equinox: where it is "
-        "positive, northern summer falls in the half of the orbit that is far from the Sun; where "
-        f"it is negative, in the near half. {BANDS}"
-    )
-
-
 def in_order(data: xr.Dataset) -> xr.Dataset:
     """Sort the epochs of a Dataset in ascending order, and remove repeated epochs."""
     return data.isel(epoch=np.unique(data.epoch.values, return_index=True)[1])
 
 
+@page_figure(
+    "Obliquity, eccentricity and climatic precession",
+    "Climatic precession is the eccentricity times the sine of the longitude of perihelion from "
+    "the moving equinox: where it is positive, northern summer falls in the half of the orbit that "
+    f"is far from the Sun; where it is negative, in the near half. {BANDS}",
+)
 def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw obliquity, eccentricity and climatic precession over time, with error bands.
 
@@ -55,6 +51,11 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
     return _plot_curves(ax, curves, 5.6)
 
 
+@page_figure(
+    "Period of precession",
+    "Period of precession at the rate of each epoch, in total and for each perturber alone. "
+    + BANDS,
+)
 def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the period of precession over time, in total and for each perturber.
 
@@ -121,6 +122,11 @@ def _words(line: xr.Dataset, name: str) -> str:
     return _AXES[name][1].format(value).replace("-", "−")
 
 
+@page_figure(
+    "Insolation",
+    "Sunlight at the top of the atmosphere, averaged over a day or as given by `mean`. The true "
+    f"longitude of the Sun is 90° at the June solstice. {BANDS}",
+)
 def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw an insolation over time as lines with error bands, or as a map if lines are too many.
 
@@ -188,6 +194,15 @@ def path_is_there(years: FloatArray) -> bool:
     return near.size >= FEWEST and bool(np.max(np.diff(near)) <= WIDEST)
 
 
+@page_figure(
+    "The pole among the stars",
+    "Path of the celestial pole among the stars, seen from inside, within 13,000 years of "
+    "the present. It does not close: the plane of the orbit moves, too. The cross is the "
+    "pole of the ecliptic of J2000.0; the stars are at their positions of J2000.0.",
+    applies=lambda tree: path_is_there(in_order(answer_of(tree)).epoch.values),
+    square=True,
+    phone=drawing.NARROW,
+)
 def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the path of the pole among the stars, up to half a turn before and after the present.
 
@@ -227,6 +242,13 @@ def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
 LEAST = 1e-6
 
 
+@page_figure(
+    "How well the perihelion is known",
+    "Contribution of each cause to the 95 % half-width of the longitude of perihelion: the "
+    "largest up to that distance from J2000.0, past or future. Far from the present, the "
+    "uncertainty of tides and figure exceeds that of the method.",
+    section="budget",
+)
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the error of the longitude of perihelion over time from J2000.0, for each cause.
 
@@ -259,42 +281,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-FIGURES = [
-    PageFigure(
-        "The pole among the stars",
-        "Path of the celestial pole among the stars, seen from inside, within 13,000 years of "
-        "the present. It does not close: the plane of the orbit moves, too. The cross is the "
-        "pole of the ecliptic of J2000.0; the stars are at their positions of J2000.0.",
-        plot_pole,
-        applies=lambda tree: path_is_there(in_order(answer_of(tree)).epoch.values),
-        square=True,
-        phone=drawing.NARROW,
-    ),
-    PageFigure(
-        "Obliquity, eccentricity and climatic precession", _caption_of_climate, plot_climate
-    ),
-    PageFigure(
-        "Period of precession",
-        "Period of precession at the rate of each epoch, in total and for each perturber alone. "
-        + BANDS,
-        plot_periods,
-    ),
-    PageFigure(
-        "How well the perihelion is known",
-        "Contribution of each cause to the 95 % half-width of the longitude of perihelion: the "
-        "largest up to that distance from J2000.0, past or future. Far from the present, the "
-        "uncertainty of tides and figure exceeds that of the method.",
-        plot_budget,
-        section="budget",
-    ),
-]
-
-
-INSOLATION = PageFigure(
-    "Insolation",
-    "Sunlight at the top of the atmosphere, averaged over a day or as given by `mean`. The true "
-    f"longitude of the Sun is 90° at the June solstice. {BANDS}",
-    plot_insolation,
-)
-
-VIEWS = {"long-term": Views(FIGURES), "insolation": Views([INSOLATION])}
+VIEWS = {
+    "long-term": Views([plot_pole, plot_climate, plot_periods, plot_budget]),
+    "insolation": Views([plot_insolation]),
+}

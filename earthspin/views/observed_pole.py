@@ -11,7 +11,7 @@ import xarray as xr
 from earthspin.constants import DAYS_PER_YEAR, MAS
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing, tables
-from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
+from earthspin.views.drawing import Axes, Figure, Views, axes, note, page_figure
 from earthspin.views.result_contents import Result, answer_of, section, stored_section
 from earthspin.wobble.record import NEAR, YEAR
 
@@ -21,6 +21,13 @@ def _metres(answer: xr.Dataset) -> float:
     return float(answer.polar_radius) * MAS if "polar_radius" in answer else 0.0
 
 
+@page_figure(
+    "Amplitude and phase in time",
+    "Amplitude and phase of the free wobble, fitted in sliding windows of one beat of the free and "
+    "the annual wobble. Near 2018 the free wobble almost vanished, and returned with a different "
+    "phase.",
+    section="chandler",
+)
 def plot_amplitude_and_phase(tree: Result) -> Figure:
     """Draw amplitude and phase of the free wobble and amplitude of the annual wobble over time.
 
@@ -36,15 +43,12 @@ def plot_amplitude_and_phase(tree: Result) -> Figure:
     return figure
 
 
-def _caption_of_amplitude(tree: Result) -> str:
-    first, last = section(tree, "chandler").middle.values[[0, -1]]
-    near_2018 = " The free wobble almost vanished near 2018 and returned with a different phase."
-    return (
-        "Amplitude and phase of the free wobble, fitted in sliding windows of one beat of the free "
-        f"and the annual wobble.{near_2018 if first < np.datetime64('2018-01-01') < last else ''}"
-    )
-
-
+@page_figure(
+    "The path of the pole",
+    "Path of the pole over the ground. The annual and the free wobble beat with a period of "
+    "6.4 years, and the mean position drifts.",
+    phone=5.4,
+)
 def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None = None) -> Axes:
     """Draw the path of the pole, with scales in milliarcseconds and in metres.
 
@@ -85,6 +89,12 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     return ax
 
 
+@page_figure(
+    "Prograde and retrograde spectra",
+    "Amplitude spectra of polar motion. The free wobble is prograde only, in the sense of the "
+    "spin; the annual wobble is mostly prograde.",
+    section="spectrum",
+)
 def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the prograde and retrograde amplitude spectra of polar motion.
 
@@ -196,30 +206,6 @@ def _scaling(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]
     return lambda v: v * factor, lambda v: v / factor
 
 
-MOTION_FIGURES = [
-    PageFigure(
-        "Amplitude and phase in time",
-        _caption_of_amplitude,
-        plot_amplitude_and_phase,
-        section="chandler",
-    ),
-    PageFigure(
-        "Prograde and retrograde spectra",
-        "Amplitude spectra of polar motion. The free wobble is prograde only, in the sense of the "
-        "spin; the annual wobble is mostly prograde.",
-        plot_spectra,
-        section="spectrum",
-    ),
-    PageFigure(
-        "The path of the pole",
-        "Path of the pole over the ground. The annual and the free wobble beat with a period of "
-        "6.4 years, and the mean position drifts.",
-        plot_polhode,
-        phone=5.4,
-    ),
-]
-
-
 # --- celestial pole offsets ----------------------------------------------------------------------
 
 
@@ -227,6 +213,11 @@ MOTION_FIGURES = [
 LARGEST_OFFSET = 1.5
 
 
+@page_figure(
+    "Observed offsets in time",
+    "Observed celestial pole minus that of IAU 2006/2000A, with the 95 % half-widths of the "
+    "table as bands.",
+)
 def plot_offsets(result: Result, *, figure: Figure | None = None) -> Figure:
     """Draw the observed celestial pole offsets dX and dY over time, with 95 % error bands.
 
@@ -247,6 +238,13 @@ def plot_offsets(result: Result, *, figure: Figure | None = None) -> Figure:
     return figure
 
 
+@page_figure(
+    "Free core nutation",
+    "Amplitude of the free core nutation in sliding windows, with its 95 % band. Noise alone "
+    "exceeds the dashed limit in 1 % of the windows. It is not detected in last windows that are "
+    "shaded.",
+    section="core_nutation",
+)
 def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the amplitude of the free core nutation over time, with 95 % band and detection limit.
 
@@ -285,30 +283,6 @@ def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def _caption_of_core_nutation(tree: Result) -> str:
-    fit: xr.Dataset = section(tree, "core_nutation")
-    words = (
-        "Amplitude of the free core nutation in sliding windows, with its 95 % band. Noise alone "
-        "exceeds the dashed limit in 1 % of the windows."
-    )
-    if not bool(fit.detected[-1]):
-        words += " In the last windows, which are shaded, it is not detected."
-    return words
-
-
-OFFSET_FIGURES = [
-    PageFigure(
-        "Observed offsets in time",
-        "Observed celestial pole minus that of IAU 2006/2000A, with the 95 % half-widths of the "
-        "table as bands.",
-        plot_offsets,
-    ),
-    PageFigure(
-        "Free core nutation", _caption_of_core_nutation, plot_core_nutation, section="core_nutation"
-    ),
-]
-
-
 # --- forecast ------------------------------------------------------------------------------------
 
 
@@ -325,6 +299,12 @@ SKILL_SETS = {
 }
 
 
+@page_figure(
+    "Forecast of both coordinates",
+    "Forecast of x and y with 95 % intervals; dashed, the prediction of Bulletin A where the "
+    "table has one from the same day.",
+    uses=("bulletin_a",),
+)
 def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
     """Draw the forecast coordinates x and y of the pole over time, with 95 % bands.
 
@@ -352,6 +332,11 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
     return figure
 
 
+@page_figure(
+    "Path of the pole",
+    "Forecast path of the pole over the ground; the ellipse of a day contains the pole of that "
+    "day in 95 % of cases.",
+)
 def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the forecast path of the pole, with 95 % ellipses on some days and on the last.
 
@@ -390,6 +375,13 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
+@page_figure(
+    "Error and coverage by horizon",
+    "Mean absolute error of one coordinate and share of 95 % intervals that contain the "
+    "observed pole, in hindcasts with C04 and on releases of finals2000A; dashed, the other "
+    "forecast from the same origins.",
+    section="skill",
+)
 def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
     """Draw the measured error of past forecasts, and the coverage of their 95 % intervals.
 
@@ -421,33 +413,8 @@ def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
     return figure
 
 
-FORECAST_FIGURES = [
-    PageFigure(
-        "Forecast of both coordinates",
-        "Forecast of x and y with 95 % intervals; dashed, the prediction of Bulletin A where the "
-        "table has one from the same day.",
-        plot_coordinates,
-        uses=("bulletin_a",),
-    ),
-    PageFigure(
-        "Path of the pole",
-        "Forecast path of the pole over the ground; the ellipse of a day contains the pole of that "
-        "day in 95 % of cases.",
-        plot_path,
-    ),
-    PageFigure(
-        "Error and coverage by horizon",
-        "Mean absolute error of one coordinate and share of 95 % intervals that contain the "
-        "observed pole, in hindcasts with C04 and on releases of finals2000A; dashed, the other "
-        "forecast from the same origins.",
-        plot_skill,
-        section="skill",
-    ),
-]
-
-
 VIEWS = {
-    "polar-motion": Views(MOTION_FIGURES),
-    "pole-offsets": Views(OFFSET_FIGURES),
-    "forecast": Views(FORECAST_FIGURES),
+    "polar-motion": Views([plot_amplitude_and_phase, plot_spectra, plot_polhode]),
+    "pole-offsets": Views([plot_offsets, plot_core_nutation]),
+    "forecast": Views([plot_coordinates, plot_path, plot_skill]),
 }

@@ -9,11 +9,18 @@ from earthspin.constants import DAY, DAYS_PER_YEAR
 from earthspin.interior.named import CORE_NUTATION
 from earthspin.motion.effects import NONRIGID
 from earthspin.views import drawing
-from earthspin.views.drawing import Axes, PageFigure, Views, axes, note
+from earthspin.views.drawing import Axes, Views, axes, note, page_figure
 from earthspin.views.result_contents import Result, answer_of, section
 from earthspin.views.tables import Column, TextTable, table_along
 
 
+@page_figure(
+    "The path of the pole",
+    "Nutation of the figure axis in space; precession, a straight line fitted to its motion, "
+    "is removed.",
+    applies=lambda tree: "psi" in answer_of(tree),
+    phone=5.8,
+)
 def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = None) -> Axes:
     """Draw the nutation of an axis: eps over psi sin(eps), each without a straight-line trend.
 
@@ -46,18 +53,6 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     ax.set_xlabel("psi sin(eps), straight line removed (arcsec)")
     ax.set_ylabel("eps, straight line removed (arcsec)")
     return ax
-
-
-POLE_FIGURES = [
-    PageFigure(
-        "The path of the pole",
-        "Nutation of the figure axis in space; precession, a straight line fitted to its motion, "
-        "is removed.",
-        plot_pole_path,
-        applies=lambda tree: "psi" in answer_of(tree),
-        phone=5.8,
-    )
-]
 
 
 # --- comparison with the IAU ---------------------------------------------------------------------
@@ -144,6 +139,15 @@ def observed(tree: Result) -> TextTable:
 IAU_TABLES = [("", budget), ("residual_sizes", residuals), ("observed", observed)]
 
 
+@page_figure(
+    "The budget",
+    "Contribution of each effect to the rate of psi_A, measured by switching the effect off, "
+    "and the published contribution; the axis is logarithmic to both sides of zero. To see: "
+    "the two dots of a pair coincide if the computed and the published contribution agree. An "
+    "effect without a dot leaves the computed rate as it is, or has no published value; the "
+    "first order, thousands of times larger, is in the table. Dashed: the closure, the "
+    "unexplained rest.",
+)
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the contribution of each effect to the precession rate, computed and published.
 
@@ -184,6 +188,12 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
+@page_figure(
+    "Residuals in time",
+    "X and Y of the computed pole minus those of the IAU; nothing is fitted or removed. "
+    "Bands: 95 % intervals.",
+    section="residuals",
+)
 def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw dX and dY of the computed pole minus the IAU pole over time, without removing a fit.
 
@@ -209,6 +219,13 @@ def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
     return panels[0]
 
 
+@page_figure(
+    "Response of the deformable body",
+    "Amplitudes of IAU 2000A divided by the rigid amplitudes computed here, and the fitted "
+    "resonance formula. The area of a dot grows with the logarithm of its amplitude.",
+    section="nutation",
+    uses=["core"],
+)
 def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the ratio of IAU 2000A to rigid-body nutation amplitudes, and a fit, over frequency.
 
@@ -241,35 +258,6 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-IAU_FIGURES = [
-    PageFigure(
-        "Residuals in time",
-        "X and Y of the computed pole minus those of the IAU; nothing is fitted or removed. "
-        "Bands: 95 % intervals.",
-        plot_pole_residuals,
-        section="residuals",
-    ),
-    PageFigure(
-        "The budget",
-        "Contribution of each effect to the rate of psi_A, measured by switching the effect off, "
-        "and the published contribution; the axis is logarithmic to both sides of zero. To see: "
-        "the two dots of a pair coincide if the computed and the published contribution agree. An "
-        "effect without a dot leaves the computed rate as it is, or has no published value; the "
-        "first order, thousands of times larger, is in the table. Dashed: the closure, the "
-        "unexplained rest.",
-        plot_budget,
-    ),
-    PageFigure(
-        "Response of the deformable body",
-        "Amplitudes of IAU 2000A divided by the rigid amplitudes computed here, and the fitted "
-        "resonance formula. The area of a dot grows with the logarithm of its amplitude.",
-        plot_nutation_ratio,
-        section="nutation",
-        uses=["core"],
-    ),
-]
-
-
 # --- nutation of the ladder ----------------------------------------------------------------------
 
 
@@ -279,6 +267,10 @@ SHOWN = 6.0
 BEYOND = 0.6
 
 
+@page_figure(
+    "From a rigid body to half a milliarcsecond",
+    "Residuals of each model from IAU 2000A. To see: which effects reduce them most.",
+)
 def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the rms of predicted minus IAU 2000A nutation for each model, on a logarithmic axis.
 
@@ -307,6 +299,13 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
+@page_figure(
+    "Through the resonance",
+    "Ratio of nutation to that of a rigid body. Dots: terms of IAU 2000A divided by rigid "
+    "terms. The resonance is the free core nutation.",
+    section="transfer",
+    uses=["terms"],
+)
 def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the nutation transfer function over frequency, and ratios of IAU 2000A to rigid terms.
 
@@ -342,25 +341,8 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-NUTATION_FIGURES = [
-    PageFigure(
-        "From a rigid body to half a milliarcsecond",
-        "Residuals of each model from IAU 2000A. To see: which effects reduce them most.",
-        plot_nutation_ladder,
-    ),
-    PageFigure(
-        "Through the resonance",
-        "Ratio of nutation to that of a rigid body. Dots: terms of IAU 2000A divided by rigid "
-        "terms. The resonance is the free core nutation.",
-        plot_transfer,
-        section="transfer",
-        uses=["terms"],
-    ),
-]
-
-
 VIEWS = {
-    "pole": Views(POLE_FIGURES),
-    "iau": Views(IAU_FIGURES, tables=IAU_TABLES),
-    "nutation": Views(NUTATION_FIGURES),
+    "pole": Views([plot_pole_path]),
+    "iau": Views([plot_pole_residuals, plot_budget, plot_nutation_ratio], tables=IAU_TABLES),
+    "nutation": Views([plot_nutation_ladder, plot_transfer]),
 }

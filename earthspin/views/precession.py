@@ -14,7 +14,7 @@ from earthspin.engine.variables import largest_of, si
 from earthspin.errors import SceneError, listed
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing, result_contents, star_chart, tables, torque
-from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
+from earthspin.views.drawing import Axes, Figure, Views, axes, note, page_figure
 from earthspin.views.result_contents import Result, answer_of, section, stored_section
 from earthspin.views.tables import Column, TextTable, measured, table_along
 
@@ -146,25 +146,23 @@ def rates(tree: Result) -> TextTable:
 
 def sky_and_calendar(tree: Result) -> TextTable:
     """Table of general precession, tropical year and calendar drift, with values for comparison."""
-    computed = tables.quantities(
-        section(tree, "seasons"),
-        "general_precession",
-        "general_precession_period",
-        Column("time_per_degree", ".3f", "years per degree"),
-        "tropical_year:.6f",
-        Column("time_per_day_of_drift", ".2f", "years per day of calendar drift"),
-        Column("time_per_dropped_leap_day", ".2f", "years per dropped leap day, Gregorian"),
-        Column("time_per_day_of_gregorian_drift", ",.0f", "years per day of Gregorian drift"),
-    )
-    numbers = ("25800", "72", "129.4", "400/3")
-    period, degree, drift, leap_day = (f"{n} (source text, I.8)" for n in numbers)
-    rate = f"{P_A_RATE.value:.5f} (IAU 2006)"
-    year = f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)"
-    others = (rate, period, degree, year, drift, leap_day, "")
+    seasons, text = section(tree, "seasons"), "{} (source text, I.8)".format
+    rows = [
+        ("general_precession", f"{P_A_RATE.value:.5f} (IAU 2006)"),
+        ("general_precession_period", text("25800")),
+        (Column("time_per_degree", ".3f", "years per degree"), text("72")),
+        ("tropical_year:.6f", f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)"),
+        (Column("time_per_day_of_drift", ".2f", "years per day of calendar drift"), text("129.4")),
+        (
+            Column("time_per_dropped_leap_day", ".2f", "years per dropped leap day, Gregorian"),
+            text("400/3"),
+        ),
+        (Column("time_per_day_of_gregorian_drift", ",.0f", "years per day of Gregorian drift"), ""),
+    ]
     return TextTable(
         "Equinox and calendar",
         ("quantity", "computed", "for comparison"),
-        [(*row, other) for row, other in zip(computed, others, strict=True)],
+        [(*tables.quantity(seasons, row), other) for row, other in rows],
         "General precession is the precession of the equator, with the published effects that the "
         "torques of Sun and Moon leave out, minus the motion of the ecliptic, which is taken from "
         "IAU 2006. A calendar of 365.25 days drifts against the "
@@ -230,7 +228,7 @@ TABLES = [
 
 def chain_figure(tree: Result, year: Result) -> drawing.Drawing:
     """Figure, with caption, of the steps from declination and torque to the precession rate."""
-    return PageFigure(
+    return drawing.PageFigure(
         "From declination to the period of precession",
         "Top: declination of each perturber through a year, at the mean equator of date. Middle: "
         "the component of the torque towards the equinox that follows (I.8.7); dashed: its mean. "
@@ -271,6 +269,14 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     return figure
 
 
+@page_figure(
+    "How the average converges",
+    "Difference between the rate averaged over a window and the adopted rate, against the "
+    "length of the window. To see: a plain mean converges slowly, whatever its length; a "
+    "tapered mean is far closer once the window holds three or more whole cycles. Dashed: the "
+    "error claimed for averaging.",
+    section="convergence",
+)
 def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the difference of averaged and adopted precession rate against the averaging time.
 
@@ -355,32 +361,18 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
+@page_figure(
+    "The circle of the pole among the stars",
+    _caption_of_circle,
+    section="seasons",
+    applies=lambda tree: bool(np.isfinite(answer_of(tree).precession_period[-1])),
+    square=True,
+    phone=drawing.NARROW,
+)
 def _plot_circle_on_page(tree: Result, ax: Axes | None = None) -> Axes:
     ax = plot_pole_circle(tree, ax=ax)
     ax.set_title("the pole's path at the rate of this model")
     return ax
 
 
-FIGURES = [
-    PageFigure(
-        "The circle of the pole among the stars",
-        _caption_of_circle,
-        _plot_circle_on_page,
-        section="seasons",
-        applies=lambda tree: bool(np.isfinite(answer_of(tree).precession_period[-1])),
-        square=True,
-        phone=drawing.NARROW,
-    ),
-    PageFigure(
-        "How the average converges",
-        "Difference between the rate averaged over a window and the adopted rate, against the "
-        "length of the window. To see: a plain mean converges slowly, whatever its length; a "
-        "tapered mean is far closer once the window holds three or more whole cycles. Dashed: the "
-        "error claimed for averaging.",
-        plot_convergence,
-        section="convergence",
-    ),
-]
-
-
-VIEWS = {"precession": Views(FIGURES, tables=TABLES, lead=lead)}
+VIEWS = {"precession": Views([_plot_circle_on_page, plot_convergence], tables=TABLES, lead=lead)}

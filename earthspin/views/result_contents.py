@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterator
 from functools import partial
 from itertools import islice, product
 from typing import Any
@@ -29,7 +29,7 @@ def dataset_of(result: Result) -> xr.Dataset:
 
 def answer_of(result: Result) -> xr.Dataset:
     """Return the main Dataset of a result; of several bodies or initial states, only the first."""
-    return _first_case(dataset_of(result), result.attrs)
+    return _first_case(dataset_of(result), question_of(result))
 
 
 def question_of(result: Result) -> type[Question] | None:
@@ -41,7 +41,7 @@ def stored_section(result: Result, name: str) -> xr.Dataset | None:
     """Return the section (Dataset) of a result with the given name, or None if there is none."""
     if not isinstance(result, xr.DataTree) or name not in result.children:
         return None
-    return _first_case(Answer(result).section(name), result.attrs)
+    return _first_case(Answer(result).section(name), question_of(result))
 
 
 def section(result: Result, name: str) -> xr.Dataset:
@@ -74,18 +74,11 @@ def perturbers_of(answer: xr.Dataset) -> str:
     return listed(names[:-1] or names)  # the last of several is their total
 
 
-def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
-    """Sentences that list the properties of the body and the perturbers that the user changed.
-
-    Parameters
-    ----------
-    answer : Dataset
-    *keys : str
-        The keys to look at; ``"body"`` and ``"perturbers"`` by default.
-    """
+def changes_of(answer: xr.Dataset) -> list[str]:
+    """Sentences that list the properties of the body and the perturbers that the user changed."""
     return [
         f"{key.capitalize()}: {answer.attrs[key]} with {answer.attrs[f'{key}_changes']}."
-        for key in keys or ("body", "perturbers")
+        for key in ("body", "perturbers")
         if f"{key}_changes" in answer.attrs
     ]
 
@@ -98,7 +91,7 @@ def cases_of(result: Result) -> dict[str, Result]:
     """The first bodies or initial states of a result, each with its labels as text."""
     data = dataset_of(result)
     cases: dict[str, Result] = {}
-    dims = [] if is_ensemble(data) else [*_case_dims(data, result.attrs)]
+    dims = [] if is_ensemble(data) else [*_case_dims(data, question_of(result))]
     if not dims:
         return {"": result}
     for place in islice(product(*(range(data.sizes[dim]) for dim in dims)), MOST_CASES):
@@ -145,16 +138,15 @@ def ascending(data: xr.Dataset) -> xr.Dataset:
     return data.sortby([dim for dim in data.indexes if data[dim].dtype.kind in "Mfi"])
 
 
-def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
+def _first_case(data: xr.Dataset, question: type[Question] | None) -> xr.Dataset:
     """Select the first body or initial state from a Dataset with many of them.
 
     That is, the first along dimensions that no part of the question declares.
     """
-    question = QUESTIONS.get(attrs.get("compute", ""))
     if question is None:
         return data
     declared = question.graph.variables
-    first = _in_order(data.isel(dict.fromkeys(_case_dims(data, attrs), 0)), question)
+    first = _in_order(data.isel(dict.fromkeys(_case_dims(data, question), 0)), question)
     first = in_shown_units(first, question)
     for name in first.variables.keys() & declared.keys():
         first[name] = first[name].transpose(*declared[str(name)].dims, ..., missing_dims="ignore")
@@ -188,8 +180,7 @@ def _in_order(data: xr.Dataset, question: type[Question]) -> xr.Dataset:
     )
 
 
-def _case_dims(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> Iterator[Hashable]:
+def _case_dims(data: xr.Dataset, question: type[Question] | None) -> Iterator[Hashable]:
     """Yield the dimensions that no part of the question declares."""
-    question = QUESTIONS.get(attrs.get("compute", ""))
     known = {"effect", "part", *question.graph.labels} if question else {*data.dims}
     return (dim for dim in data.dims if dim not in known)

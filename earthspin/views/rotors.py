@@ -10,7 +10,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.views import drawing, solids
-from earthspin.views.drawing import BLUE, GREEN, RED, Axes, Figure, PageFigure, Views, axes
+from earthspin.views.drawing import BLUE, GREEN, RED, Axes, Figure, Views, axes, page_figure
 from earthspin.views.result_contents import Result, answer_of, section
 from earthspin.views.solids import BLACK, GREY, Solid
 
@@ -35,6 +35,11 @@ def _caption_of_herpolhode(tree: Result) -> str:
     )
 
 
+@page_figure(
+    "Angular velocity in the body",
+    "Components of the angular velocity along the principal axes.",
+    points=POINTS,
+)
 def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the components of angular velocity along the principal axes over time.
 
@@ -53,6 +58,7 @@ def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
+@page_figure("Herpolhode", _caption_of_herpolhode, section="poinsot", square=True, points=POINTS)
 def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the path of the angular velocity in the invariable plane (herpolhode) and its bounds.
 
@@ -72,24 +78,6 @@ def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
     words = "in the invariable plane (rad/s)"
     ax.set(aspect="equal", xlabel=words, ylabel=words)
     return ax
-
-
-ROTOR_FIGURES = [
-    PageFigure(
-        "Angular velocity in the body",
-        "Components of the angular velocity along the principal axes.",
-        plot_components,
-        points=POINTS,
-    ),
-    PageFigure(
-        "Herpolhode",
-        _caption_of_herpolhode,
-        plot_herpolhode,
-        section="poinsot",
-        square=True,
-        points=POINTS,
-    ),
-]
 
 
 def ellipsoids_with_polhodes(tree: Result) -> Solid:
@@ -228,6 +216,16 @@ ROTOR_SOLIDS = [
 # --- heavy tops ----------------------------------------------------------------------------------
 
 
+@page_figure(
+    "Effective potential and nutation",
+    "Left: the effective potential as a function of the inclination, and the energy of the top "
+    "(dashed); the inclination varies where the energy lies above the potential. Right: the "
+    "inclination in time or, if it does not change, the horizontal components of a line across "
+    "the axis that turns with the top.",
+    section="potential",
+    uses=["turning"],
+    points=POINTS,
+)
 def _plot_potential_and_nutation(tree: Result, figure: Figure | None = None) -> Figure:
     answer, figure = answer_of(tree), figure or drawing.empty(8, 3.4)
     left, right = figure.subplots(1, 2)
@@ -267,21 +265,6 @@ def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.set_ylim(lowest - 0.2 * reach, level + 2 * reach)
     ax.set(xlabel="inclination (deg)", ylabel="effective potential (rad²/s²)")
     return ax
-
-
-TOP_FIGURES = [
-    PageFigure(
-        "Effective potential and nutation",
-        "Left: the effective potential as a function of the inclination, and the energy of the top "
-        "(dashed); the inclination varies where the energy lies above the potential. Right: the "
-        "inclination in time or, if it does not change, the horizontal components of a line across "
-        "the axis that turns with the top.",
-        _plot_potential_and_nutation,
-        section="potential",
-        uses=["turning"],
-        points=POINTS,
-    )
-]
 
 
 def path_of_top(tree: Result) -> solids.Solid:
@@ -329,6 +312,11 @@ def _label(ax: Axes, words: str) -> Axes:
     return ax
 
 
+@page_figure(
+    "Spin in the body",
+    "Components of the angular velocity along the principal axes, C last; of a steady spin "
+    "their differences from the mean.",
+)
 def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the components of angular velocity along the principal axes over time.
 
@@ -350,6 +338,11 @@ def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
     return _label(ax, "angular velocity (deg/d)")
 
 
+@page_figure(
+    "How well the attitude is known",
+    "Error of the attitude over time: from the integration (the difference of two solutions), "
+    "and from the uncertainties of the inputs and of the positions.",
+)
 def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the error of the attitude over time, for each cause (method, inputs, kernel).
 
@@ -371,6 +364,11 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
     return _label(ax, "error of the attitude (deg)")
 
 
+@page_figure(
+    "Divergence of neighbouring rotations",
+    "Logarithm of the distance of neighbouring rotations; a straight line means chaos.",
+    section="divergence",
+)
 def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the divergence of two rotations from nearly equal starts, as a logarithm over time.
 
@@ -390,28 +388,6 @@ def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
         words = f"e-fold in {time:.3g} ± {error:.2g} d"
         ax.plot(days, days / time, "k--", lw=0.9, label=words)
     return _label(ax, "logarithm of the distance (1)")
-
-
-ROTATION_FIGURES = [
-    PageFigure(
-        "Spin in the body",
-        "Components of the angular velocity along the principal axes, C last; of a steady spin "
-        "their differences from the mean.",
-        plot_spin,
-    ),
-    PageFigure(
-        "How well the attitude is known",
-        "Error of the attitude over time: from the integration (the difference of two solutions), "
-        "and from the uncertainties of the inputs and of the positions.",
-        plot_attitude_error,
-    ),
-    PageFigure(
-        "Divergence of neighbouring rotations",
-        "Logarithm of the distance of neighbouring rotations; a straight line means chaos.",
-        plot_growth,
-        section="divergence",
-    ),
-]
 
 
 #: Semi-axes of what is drawn: the shape of no body in particular.
@@ -448,7 +424,7 @@ def _largest(vectors: FloatArray) -> float:
 
 
 VIEWS = {
-    "free-rotor": Views(ROTOR_FIGURES, ROTOR_SOLIDS),
-    "top": Views(TOP_FIGURES, [("turning", path_of_top)]),
-    "rotation": Views(ROTATION_FIGURES, [("", turning_body)]),
+    "free-rotor": Views([plot_components, plot_herpolhode], ROTOR_SOLIDS),
+    "top": Views([_plot_potential_and_nutation], [("turning", path_of_top)]),
+    "rotation": Views([plot_spin, plot_attitude_error, plot_growth], [("", turning_body)]),
 }

@@ -155,9 +155,10 @@ def least_width(head: str, cells: Sequence[str]) -> int:
     return max(len(head) // 3, *map(len, [*head.split(), *whole, *broken, ""]))
 
 
-def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
-    """Table rows with one quantity in each row: label and value as text."""
-    return [(row.header(data), row.text(data)) for row in map(_column, rows)]
+def quantity(data: xr.Dataset, row: Column | str) -> tuple[str, str]:
+    """Table row of one quantity: label and value as text."""
+    row = _column(row)
+    return row.header(data), row.text(data)
 
 
 def _column(column: Column | str) -> Column:

@@ -8,26 +8,12 @@ import numpy as np
 import xarray as xr
 
 from earthspin.views import drawing, tables
-from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, Views, axes, page_figure
 from earthspin.views.result_contents import Result, answer_of
 
 COLOURS = {"sun": drawing.ORANGE, "moon": BLUE, "total": "#222222"}
 #: What turns more often than this in a figure is drawn as a band.
 MANY_SWINGS = 200
-
-
-def torque_figure(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
-    """Figure, for an HTML page, of declination and torque over time; fast oscillations as bands."""
-    plot = partial(_plot_both, smooth_days=smooth_days)
-    return PageFigure(title, _caption_of_torque(tree, smooth_days), plot).drawn(tree)
-
-
-def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
-    """Draw the declination of the perturbers in an upper panel and their torque in a lower one."""
-    figure, (upper, lower) = drawing.stacked(2, 4.6)
-    plot_declination(tree, smooth_days=smooth_days, ax=upper)
-    plot_torque(tree, smooth_days=smooth_days, ax=lower)
-    return figure
 
 
 def _caption_of_torque(tree: Result, smooth_days: float | None = None) -> str:
@@ -50,6 +36,21 @@ def _caption_of_torque(tree: Result, smooth_days: float | None = None) -> str:
         "component of the torque towards the equinox; it hardly ever changes sign, so it always "
         f"turns the axis in the same direction. {lines}"
     )
+
+
+@page_figure("Declination and torque", _caption_of_torque)
+def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
+    """Draw the declination of the perturbers in an upper panel and their torque in a lower one."""
+    figure, (upper, lower) = drawing.stacked(2, 4.6)
+    plot_declination(tree, smooth_days=smooth_days, ax=upper)
+    plot_torque(tree, smooth_days=smooth_days, ax=lower)
+    return figure
+
+
+def torque_figure(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
+    """Figure, for an HTML page, of declination and torque over time; fast oscillations as bands."""
+    plot = partial(_plot_both, smooth_days=smooth_days)
+    return drawing.PageFigure(title, _caption_of_torque(tree, smooth_days), plot).drawn(tree)
 
 
 def plot_declination(
@@ -133,19 +134,15 @@ def _colour(label: str, number: int) -> str:
     return COLOURS.get(label, CYCLE[number % len(CYCLE)])
 
 
-TORQUE_FIGURES = [PageFigure("Declination and torque", _caption_of_torque, _plot_both)]
-
-
 # --- Cassini states ------------------------------------------------------------------------------
 
 
-def _caption_of_states(tree: Result) -> str:
-    words = "Spin axes, in the plane of the orbit normal (dashed) and its mean (dotted)."
-    if not bool(answer_of(tree).stable.all()):
-        words += " An axis near a blue state stays near it; near the red one it does not."
-    return words
-
-
+@page_figure(
+    "The states",
+    "Spin axes, in the plane of the orbit normal (dashed) and its mean (dotted). An axis near a "
+    "blue state stays near it; near a red one it does not.",
+    square=True,
+)
 def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the spin axes of all Cassini states, which lie in one plane with the orbit normal.
 
@@ -177,7 +174,4 @@ def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-STATES_FIGURES = [PageFigure("The states", _caption_of_states, plot_states, square=True)]
-
-
-VIEWS = {"torque": Views(TORQUE_FIGURES), "cassini-states": Views(STATES_FIGURES)}
+VIEWS = {"torque": Views([_plot_both]), "cassini-states": Views([plot_states])}

@@ -5,21 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from earthspin.views import drawing
-from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
-from earthspin.views.result_contents import Result, answer_of, changes_of, section, stored_section
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, Views, axes, page_figure
+from earthspin.views.result_contents import Result, answer_of, section, stored_section
 from earthspin.views.tables import along
 
 
-def _caption_of_ladder(tree: Result) -> str:
-    observed = stored_section(tree, "observed")
-    band = "" if observed is None else "; the band is the observed period"
-    words = (
-        "Period of the free wobble from models of increasing detail, with 95 % errors from sampled "
-        f"inputs only{band}."
-    )
-    return " ".join([words, *changes_of(answer_of(tree), "body")])
-
-
+@page_figure(
+    "From the rigid to the deformable body",
+    "Period of the free wobble from models of increasing detail, with 95 % errors from sampled "
+    "inputs only; the band is the observed period.",
+    uses=["observed"],
+)
 def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the wobble period of each model in days, and the observed period as a band.
 
@@ -51,13 +47,6 @@ def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-LADDER_FIGURES = [
-    PageFigure(
-        "From the rigid to the deformable body", _caption_of_ladder, plot_ladder, uses=["observed"]
-    )
-]
-
-
 # --- Love numbers --------------------------------------------------------------------------------
 
 
@@ -70,6 +59,12 @@ SMALL = "l2_load"
 MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
 
 
+@page_figure(
+    "Love numbers by period",
+    "Excess of the Love numbers of tide and load over those of the elastic body (at 1 s), "
+    "and their phase lag, by period. The small tangential load Love number is left out.",
+    section="by_period",
+)
 @drawing.style()
 def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
     """Draw the excess (%) of Love numbers over elastic values, and the lag (deg), against period.
@@ -103,18 +98,7 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
     return figure
 
 
-LOVE_FIGURES = [
-    PageFigure(
-        "Love numbers by period",
-        "Excess of the Love numbers of tide and load over those of the elastic body (at 1 s), "
-        "and their phase lag, by period. The small tangential load Love number is left out.",
-        plot_by_period,
-        section="by_period",
-    )
-]
-
-
 VIEWS = {
-    "wobble": Views(LADDER_FIGURES),
-    "love-numbers": Views(LOVE_FIGURES),
+    "wobble": Views([plot_ladder]),
+    "love-numbers": Views([plot_by_period]),
 }
