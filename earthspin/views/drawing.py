@@ -28,6 +28,7 @@ from earthspin.views.tables import TextTable
 if TYPE_CHECKING:
     import matplotlib.axes
     import matplotlib.figure
+    from matplotlib.colorbar import Colorbar
 
 #: Types for annotations, which do not import the library.
 Axes: TypeAlias = "matplotlib.axes.Axes"
@@ -295,6 +296,15 @@ def band(
     pixels = np.nan_to_num(high - low).max() / np.ptp(ax.get_ylim()) * ax.bbox.height
     if pixels > 4 and INTERVAL not in ax.get_legend_handles_labels()[1]:
         filled.set_label(INTERVAL)
+
+
+def path_in_time(ax: Axes, x: Any, y: Any, years: Any, words: str, **how: Any) -> Colorbar:
+    """Draw a path in a plane, coloured by the time, and return its bar of colours."""
+    ax.plot(x, y, color="0.8", lw=0.6, zorder=1)
+    dots = ax.scatter(x, y, c=years, s=3, cmap="viridis", zorder=2)
+    ax.set_aspect("equal")
+    where: Any = {"ax": ax, "location": "bottom", "shrink": 0.8, "aspect": 40}
+    return ax.figure.colorbar(dots, label=words, **where, **how)
 
 
 def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:

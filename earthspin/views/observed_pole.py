@@ -74,18 +74,14 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     scale = 1e3 if answer.x.attrs.get("units") == "arcsec" else 1.0
     x, y = answer.x.values * scale, answer.y.values * scale
     when = 1970 + (answer.time.values - np.datetime64("1970-01-01")) / np.timedelta64(1, "D") / YEAR
-    ax.plot(y, x, color="0.8", lw=0.6, zorder=1)
-    dots = ax.scatter(y, x, c=when, s=3, cmap="viridis", zorder=2)
+    bar = drawing.path_in_time(ax, y, x, when, "time (UTC, years)", format="%.0f")
+    bar.locator = MaxNLocator(8, integer=True)
     ax.plot(y[-1], x[-1], "o", color=drawing.RED, ms=6, zorder=3)
     note(ax, tables.date(answer.time[-1]), (y[-1], x[-1]), (7, 0), color=drawing.RED)
-    ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
-    ax.set_xlabel("y, towards 90° west (mas)")
+    ax.set(xlabel="y, towards 90° west (mas)", ylabel="x, towards the prime meridian (mas)")
     if metres := _metres(answer):
         ax.secondary_xaxis("top", functions=_scaling(metres)).set_xlabel("y (m)")
         ax.secondary_yaxis("right", functions=_scaling(metres)).set_ylabel("x (m)")
-    bar = ax.figure.colorbar(dots, ax=ax, location="bottom", shrink=0.8, aspect=40, format="%.0f")
-    bar.locator = MaxNLocator(8, integer=True)
-    bar.set_label("time (UTC, years)")
     return ax
 
 
@@ -265,11 +261,8 @@ def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
     drawing.band(
         ax, time, size, error, drawing.BLUE, alpha=0.2, lowest=0.0, lw=0.8, ls=":", zorder=2
     )
-    label = "amplitude, detected"
-    for run in np.split(np.arange(time.size), np.flatnonzero(np.diff(detected)) + 1):
-        if detected[run[0]]:
-            ax.plot(time[run], size[run], color=drawing.BLUE, lw=1.8, label=label)
-            label = "_repeated"
+    shown = np.where(detected, size, np.nan)
+    ax.plot(time, shown, color=drawing.BLUE, lw=1.8, label="amplitude, detected")
     ax.plot(time, fit.detection_limit, color=drawing.GREY, lw=1, ls="--", label="detection limit")
     if not detected[-1]:
         last = time[detected][-1] if detected.any() else time[0]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from functools import cache
 from html import escape
 from importlib import resources
 
@@ -64,21 +63,7 @@ def page(
 
 def rendered(template: str, **content: object) -> str:
     """Insert content and the common style sheet into a template; return the HTML text."""
-    return environment().get_template(template).render(sheet=source("page.css"), **content)
-
-
-@cache
-def environment() -> Environment:
-    """Jinja environment that loads the page templates and defines text filters for pages."""
-    templates = Environment(
-        loader=PackageLoader("earthspin.views"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    templates.filters |= {"typeset": typeset, "anchor": anchor}
-    return templates
+    return _TEMPLATES.get_template(template).render(sheet=source("page.css"), **content)
 
 
 def source(name: str) -> str:
@@ -180,3 +165,13 @@ def _mixture(match: re.Match[str]) -> str:
 def anchor(title: str) -> str:
     """Name of a page section for links: its title in lower case, with hyphens."""
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")
+
+
+_TEMPLATES = Environment(
+    loader=PackageLoader("earthspin.views"),
+    autoescape=True,
+    undefined=StrictUndefined,
+    trim_blocks=True,
+    lstrip_blocks=True,
+)
+_TEMPLATES.filters |= {"typeset": typeset, "anchor": anchor}

@@ -32,8 +32,6 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
         Which of the three.
     ax : Axes, optional
     """
-    from matplotlib.collections import LineCollection
-
     ax = axes(ax, 6.4, 6.4)
     answer = answer_of(result).sel(axis=axis)
     days = (answer.time.values - answer.time.values[0]) / np.timedelta64(1, "D")
@@ -42,14 +40,8 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     design = np.stack([np.ones_like(days), days, np.cos(turn), np.sin(turn)], axis=1)
     line = np.linalg.lstsq(design, angles, rcond=None)[0]
     x, y = (angles - design[:, :2] @ line[:2]).T
-    points = np.stack([x, y], axis=1)
-    steps = list(np.stack([points[:-1], points[1:]], axis=1))
-    path = LineCollection(steps, array=days[:-1] / DAYS_PER_YEAR, cmap="viridis", lw=0.7)
-    ax.add_collection(path)
-    ax.autoscale_view()
-    words = "time from the start (years)"
-    ax.figure.colorbar(path, ax=ax, location="bottom", shrink=0.8, aspect=40, label=words)
-    ax.set(aspect="equal", title=f"{axis.replace('_', ' ')} axis")
+    drawing.path_in_time(ax, x, y, days / DAYS_PER_YEAR, "time from the start (years)")
+    ax.set_title(f"{axis.replace('_', ' ')} axis")
     ax.set_xlabel("psi sin(eps), straight line removed (arcsec)")
     ax.set_ylabel("eps, straight line removed (arcsec)")
     return ax
@@ -324,12 +316,10 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     inside = np.abs(frequency) < SHOWN
     for rung, colour, width in (("elastic", "0.6", 1.0), (data.rung.values[-1], drawing.BLUE, 1.4)):
         transfer = data.transfer_real.sel(rung=rung).values
-        shown = np.flatnonzero(inside & (np.abs(transfer - 1) < BEYOND))
-        # no line from pole to pole, nor through rest in space
-        steps = (np.diff(shown) > 1) | (np.diff(np.sign(frequency[shown])) > 0)
-        for number, piece in enumerate(np.split(shown, np.flatnonzero(steps) + 1)):
-            words = str(rung) if number == 0 else None
-            ax.plot(frequency[piece], transfer[piece], color=colour, lw=width, label=words)
+        shown = inside & (np.abs(transfer - 1) < BEYOND)  # no line from pole to pole
+        shown[:-1] &= np.diff(np.sign(frequency)) == 0  # nor through rest in space
+        drawn = np.where(shown, transfer, np.nan)
+        ax.plot(frequency, drawn, color=colour, lw=width, label=str(rung))
     ratio = (main.iau_in_phase / main.predicted_in_phase.sel(rung="rigid")).values
     at = DAYS_PER_YEAR / main.period.values
     inside = np.abs(at) < SHOWN

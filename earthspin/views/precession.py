@@ -331,6 +331,14 @@ def _circle(total: xr.Dataset, years: ArrayLike) -> FloatArray:
     return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)
 
 
+@page_figure(
+    "The circle of the pole among the stars",
+    _caption_of_circle,
+    section="seasons",
+    applies=lambda tree: bool(np.isfinite(answer_of(tree).precession_period[-1])),
+    square=True,
+    phone=drawing.NARROW,
+)
 def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the path of the celestial pole among the stars through one period of precession.
 
@@ -357,22 +365,8 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     dates = star_chart.year_labels(years, _circle(total, years))
     path = _circle(total, np.linspace(2000 - turn / 2, 2000 + turn / 2, 361))
     ax = star_chart.plot_path(path, dates, float(np.radians(total.obliquity)), ax)
-    ax.set_title(f"once round in {turn:.0f} years")
+    ax.set_title(f"at the rate of this model, once round in {turn:.0f} years")
     return ax
 
 
-@page_figure(
-    "The circle of the pole among the stars",
-    _caption_of_circle,
-    section="seasons",
-    applies=lambda tree: bool(np.isfinite(answer_of(tree).precession_period[-1])),
-    square=True,
-    phone=drawing.NARROW,
-)
-def _plot_circle_on_page(tree: Result, ax: Axes | None = None) -> Axes:
-    ax = plot_pole_circle(tree, ax=ax)
-    ax.set_title("the pole's path at the rate of this model")
-    return ax
-
-
-VIEWS = {"precession": Views([_plot_circle_on_page, plot_convergence], tables=TABLES, lead=lead)}
+VIEWS = {"precession": Views([plot_pole_circle, plot_convergence], tables=TABLES, lead=lead)}

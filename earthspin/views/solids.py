@@ -70,12 +70,8 @@ class Solid:
 
 def _rounded(points: FloatArray) -> list[Any]:
     """Numbers of an array, rounded to five significant digits."""
-    size = np.where(points == 0, 1.0, np.abs(points))
-    digits = np.clip(4 - np.floor(np.log10(size)), -22, 22)
-    # a whole number divided by an exact power of ten is the float nearest to its decimal digits
-    scale = 10.0 ** np.abs(digits)
-    small, large = np.rint(points * scale) / scale, np.rint(points / scale) * scale
-    numbers: list[Any] = np.where(digits >= 0, small, large).tolist()
+    rounded = [float(f"{number:.5g}") for number in points.ravel().tolist()]
+    numbers: list[Any] = np.reshape(rounded, points.shape).tolist()
     return numbers
 
 
