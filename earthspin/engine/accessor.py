@@ -183,7 +183,7 @@ class Answer:
         """
         main = isinstance(section, str) and not section  # type: ignore[redundant-expr]
         data = self.dataset if main else self.section(section)
-        spread, variables = _spread(without_lost_units(data)), [*map(str, data.variables)]
+        spread, owners = _spread(without_lost_units(data))
         requested = names_in(columns, "columns")
         if requested == [ALL]:
             fitted = {n for n, v in spread.data_vars.items() if "ancillary_variables" in v.attrs}
@@ -193,16 +193,11 @@ class Answer:
                 for n, v in spread.data_vars.items()
                 if v.ndim or not spread.sizes or n in fitted
             ]
-        # a column belongs to the variable with the longest name with which its own begins
-        owners = {
-            column: max((v for v in variables if f"{column}_".startswith(f"{v}_")), key=len)
-            for column in map(str, spread)
-        }
         names: list[str] = []
         for name in requested:
             own = [c for c in owners if name in (c, owners[c]) or c.startswith(f"{name}{_ERROR}")]
             if not own and name not in spread.dims:
-                raise SceneError("columns", name, nearest(name, variables))
+                raise SceneError("columns", name, nearest(name, map(str, data.variables)))
             names += [column for column in own if column not in names]
         if spread.sizes:
             frame = spread.to_dataframe()
@@ -220,10 +215,10 @@ class Answer:
             if not changed or unit_of[changed[0]] == "1":
                 known = ", ".join(c for c in unit_of if unit_of[c] != "1")
                 raise SceneError("units", name, f"columns with a unit: {known}")
-            own = unit_of[changed[0]]
-            factor = quantity(f"1 {unit}", own, Where(f"units of {name}"), f"1 {own}")
+            was = unit_of[changed[0]]
+            factor = quantity(f"1 {unit}", was, Where(f"units of {name}"), f"1 {was}")
             changed += [c for c in names if c.startswith(name + _ERROR)]
-            for column in (c for c in changed if unit_of[c] == own):
+            for column in (c for c in changed if unit_of[c] == was):
                 frame[column], unit_of[column] = as_written(frame[column], 1 / factor), unit
         frame.attrs["units"] = unit_of
         return frame
@@ -433,12 +428,14 @@ def _without_inherited(node: xr.DataTree) -> xr.Dataset:
     return data.drop_dims(data.sizes.keys() - node.to_dataset(inherit=False).sizes.keys())
 
 
-def _spread(dataset: xr.Dataset) -> xr.Dataset:
+def _spread(dataset: xr.Dataset) -> tuple[xr.Dataset, dict[str, str]]:
     """Split variables of a Dataset until all have the same dimensions, as table columns need.
 
-    A variable with further dimensions becomes one variable for each of their labels.
+    A variable with further dimensions becomes one variable for each of their labels. The dict has
+    the names of the original variables.
     """
     columns: dict[str, xr.DataArray] = {}
+    owners: dict[str, str] = {}
     dataset = texts_as_columns(dataset)
     dims = [frozenset(array.dims) for array in dataset.data_vars.values() if array.ndim]
     common = Counter(some.difference(("component", "quaternion", "axis")) for some in dims)
@@ -448,8 +445,9 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
         for place in product(*(range(array.sizes[dim]) for dim in along)):
             at = dict(zip(along, place, strict=True))
             labels = (str(array[dim].values[number]) for dim, number in at.items())
-            columns["_".join([str(name), *labels])] = array.isel(at, drop=True)
-    return xr.Dataset(columns)
+            column = "_".join([str(name), *labels])
+            columns[column], owners[column] = array.isel(at, drop=True), str(name)
+    return xr.Dataset(columns), owners
 
 
 # --- members of an ensemble -----------------------------------------------------------------------

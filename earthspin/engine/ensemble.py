@@ -21,7 +21,7 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin.engine import blocks
 from earthspin.engine.ensemble_inputs import along_members, inputs_of, published, with_values
-from earthspin.engine.members import MEMBER, TWICE, IntArray, Members, draw
+from earthspin.engine.members import MEMBER, IntArray, Members, draw
 from earthspin.engine.question import SCENE, Question, scene_text
 from earthspin.engine.run import Run
 from earthspin.engine.variables import texts_as_labels
@@ -88,8 +88,6 @@ class Ensemble:
         self.full_question, self.question = question, question.replace(members=None, **nominal)
         self._length = block
         members, where = question.members or Members(), question.where("members")
-        for name in members.distributions.keys() & members.values.keys():
-            raise where.at(name).error("...", TWICE)
         distributions = published(self.question) if members.published else {}
         distributions |= members.distributions
         self.inputs = inputs_of(self.question, [*distributions, *members.values], where)

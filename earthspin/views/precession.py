@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from earthspin.bodies import in_a_sentence
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
-from earthspin.engine.variables import largest_of, si
+from earthspin.engine.variables import si
 from earthspin.errors import SceneError, listed
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing, result_contents, star_chart, tables, torque
@@ -111,24 +111,12 @@ def rates(tree: Result) -> TextTable:
     answer = answer_of(tree)
     if answer.sizes["perturber"] == 2:  # the total of one perturber says nothing more
         answer = answer.isel(perturber=[0])
-    first, last = answer.perturber.values[[0, -1]]
+    first = answer.perturber.values[0]
     errors = answer.precession_rate_error_method[-1], answer.precession_rate_error_input[-1]
     method, input_error = map(tables.two_digits, errors)
 
-    neglected = answer.attrs["neglected"]
-    largest = largest_of(neglected)
-    size = "size unknown" if largest is None else f"{largest[1]:g} ({largest[0]})"
-    size += ", others unknown" if largest and "unknown size" in neglected else ""
-    if largest and len(size) > tables.SHORT:
-        size = f"{largest[1]:g} (see below)"
-
-    def left_out(row: xr.Dataset) -> str:
-        return size if row.perturber == last else ""
-
     columns = (
-        "precession_rate",
-        Column("", left_out, "left out, arcsec/yr"),
-        *("precession_period", "mean_torque"),
+        *("precession_rate", "precession_period", "mean_torque"),
         Column("rate_ratio", ".5f", f"rate / {first}"),
     )
     note = (
