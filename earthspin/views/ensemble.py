@@ -78,7 +78,7 @@ def _percentages(answer: xr.Dataset) -> xr.Dataset:
     result = answer.earthspin.sensitivity()
     labels = ("input", [*map(str, result["input"].values), "rest"], result["input"].attrs)
     result = result.drop_vars("input")  # xarray 2025.6 cannot concatenate labels that are words
-    name = _main_variable(answer)
+    name = _main_numbers(answer)[0].name
     share, error, rest = (
         100 * result[f"{name}_{what}"] for what in ("share", "share_error", "unexplained")
     )
@@ -101,7 +101,7 @@ def lead(tree: Result) -> str:
     answer = dataset_of(tree)
     if not _numbers(answer):
         return _alike(answer)
-    number = _main_number(answer)
+    number = _main_numbers(answer)[-1]
     low, middle, high = answer.earthspin.quantiles()[number.name].sel(number.labels).values
     value = with_error(middle, (high - low) / 2, number.units.replace("1", "", 1).strip())
     words = f"{answer.sizes[MEMBER]} members: {number.words}, {value}."
@@ -117,23 +117,21 @@ def lead(tree: Result) -> str:
     "Main number of the members minus its median; the band is the central 95 %.",
     applies=lambda tree: bool(_numbers(dataset_of(tree))),
 )
-def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Axes:
-    """Draw a histogram of one quantity over the ensemble members, with its central 95 % as a band.
+def plot_spread(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw a histogram of the main number of an ensemble, with its central 95 % as a band.
 
     Parameters
     ----------
     result : Dataset or DataTree
-    name : str
-        The headline of the question by default.
     ax : Axes, optional
 
     Raises
     ------
     SceneError
-        If no number of that name differs among the members.
+        If no number differs among the members.
     """
     answer = dataset_of(result)
-    number = _main_number(answer, name)
+    number = _main_numbers(answer)[-1]
     values = answer[number.name].sel(number.labels).values
     low, middle, high = np.quantile(values, (0.025, 0.5, 0.975))
     ax = axes(ax, 7.5, 3.6)
@@ -167,15 +165,9 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
         If no number differs among the members, or they are too few.
     """
     answer = dataset_of(result)
-    if not _numbers(answer):
-        raise SceneError("ensemble", answer.attrs["title"], _alike(answer))
-    result, name, inputs = (
-        answer.earthspin.sensitivity(),
-        _main_variable(answer),
-        [*inputs_of(answer)],
-    )
-    rows = [number for number in _numbers(answer) if number.name == name][:MOST_ROWS]
-    share = np.array([result[f"{name}_share"].sel(row.labels).values for row in rows])
+    rows, inputs = _main_numbers(answer)[:MOST_ROWS], [*inputs_of(answer)]
+    result = answer.earthspin.sensitivity()
+    share = np.array([result[f"{row.name}_share"].sel(row.labels).values for row in rows])
     order = np.argsort(-share.max(axis=0))
     shown = [int(i) for i in order if share[:, i].max() >= SMALL][:MOST_COLOURS]
     ax = axes(ax, 7.5, 1.2 + 0.32 * len(rows))
@@ -225,27 +217,22 @@ def _alike(answer: xr.Dataset) -> str:
     return f"No finite number differs among the members: {count} members, inputs {inputs}."
 
 
-def _main_variable(answer: xr.Dataset) -> str:
-    """Name of the variable that is quoted first, or else of the first that differs among members.
+def _main_numbers(answer: xr.Dataset) -> list[VaryingNumber]:
+    """Numbers that differ among ensemble members, in the variable that is quoted first.
 
-    Empty if no number differs.
+    It is the headline of the question, or else the first variable that differs. Its last number
+    is for example the total, or the value at the last time.
+
+    Raises
+    ------
+    SceneError
+        If no number differs.
     """
-    differing = [number.name for number in _numbers(answer)]
-    question = question_of(answer)
-    return next((n for n in differing if question and n == question.headline), [*differing, ""][0])
-
-
-def _main_number(answer: xr.Dataset, name: str = "") -> VaryingNumber:
-    """Last number that differs among ensemble members, in the main variable or the variable `name`.
-
-    It is for example the total, or the value at the last time.
-    """
-    variable = name or _main_variable(answer)
-    numbers = [number for number in _numbers(answer) if number.name == variable]
-    if numbers:
-        return numbers[-1]
-    words = f"'{name}' does not differ among the members" if name else _alike(answer)
-    raise SceneError("ensemble", answer.attrs["title"], words)
+    numbers, question = _numbers(answer), question_of(answer)
+    if not numbers:
+        raise SceneError("ensemble", answer.attrs["title"], _alike(answer))
+    main = [n for n in numbers if question and n.name == question.headline]
+    return main or [number for number in numbers if number.name == numbers[0].name]
 
 
 def _digits(value: float, other: float) -> str:
