@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from itertools import product
 from pathlib import Path
 from types import MethodType
 from typing import TYPE_CHECKING, Any
@@ -20,7 +19,7 @@ from earthspin.engine import atomic_writes
 from earthspin.engine.members import MEMBER
 from earthspin.engine.origin import without_lost_units
 from earthspin.engine.question import ALL, names_in
-from earthspin.engine.variables import from_si, texts_as_columns, with_units_of_answers
+from earthspin.engine.variables import from_si, places, texts_as_columns, with_units_of_answers
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.numerics import sampling
 from earthspin.units import as_written, quantity, real_numbers
@@ -442,8 +441,7 @@ def _spread(dataset: xr.Dataset) -> tuple[xr.Dataset, dict[str, str]]:
     rows = common.most_common(1)[0][0] if common else frozenset()
     for name, array in dataset.data_vars.items():
         along = [str(dim) for dim in array.dims if dim not in rows]
-        for place in product(*(range(array.sizes[dim]) for dim in along)):
-            at = dict(zip(along, place, strict=True))
+        for at in places(array, along):
             labels = (str(array[dim].values[number]) for dim, number in at.items())
             column = "_".join([str(name), *labels])
             columns[column], owners[column] = array.isel(at, drop=True), str(name)

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import product
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -411,6 +412,14 @@ def labels_of(name: str, values: object, attrs: Mapping[str, object] | None = No
     variable = index.create_variables()[name]
     variable.attrs.update(attrs or {})
     return variable
+
+
+def places(
+    data: xr.Dataset | xr.DataArray, dims: Sequence[Hashable]
+) -> Iterator[dict[Hashable, int]]:
+    """Yield all combinations of indices along some dimensions, each in the form of `isel`."""
+    for index in product(*(range(data.sizes[dim]) for dim in dims)):
+        yield dict(zip(dims, index, strict=True))
 
 
 def texts_as_labels(answer: xr.Dataset) -> xr.Dataset:

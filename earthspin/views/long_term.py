@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from itertools import product
 
 import numpy as np
 import xarray as xr
 
 from earthspin.constants import EPSILON_0
+from earthspin.engine.variables import places
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
@@ -164,11 +164,8 @@ def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
         ax.set(ylabel=_AXES[others[0]][0], title=place(data))
         ax.figure.colorbar(image, ax=ax, label=label)
         return ax
-    lines = (
-        answer.isel(dict(zip(others, index, strict=True)))
-        for index in product(*(range(size[name]) for name in others))
-    )
-    for colour, line in zip(drawing.CYCLE, lines, strict=False):
+    for colour, at in zip(drawing.CYCLE, places(answer, others), strict=False):
+        line = answer.isel(at)
         x, value, error = (line[name].values for name in (across, variable, f"{variable}_error"))
         marker = "o" if x.size == 1 else None
         drawing.band(ax, x, value, error, colour, lw=1.0, marker=marker, label=place(line))

@@ -51,11 +51,8 @@ if TYPE_CHECKING:
     from earthspin.engine.accessor import Answer
 
 #: Figures, pictures and special tables of the answers to each question.
-VIEWS: dict[str, Views] = {
-    word: views
-    for module in (precession, torque, pole, rotors, long_term, observed_pole, wobble)
-    for word, views in module.VIEWS.items()
-}
+VIEWS = precession.VIEWS | torque.VIEWS | pole.VIEWS | rotors.VIEWS | long_term.VIEWS
+VIEWS |= observed_pole.VIEWS | wobble.VIEWS
 
 #: Page of the documentation that explains errors.
 ERRORS = "work_precision"

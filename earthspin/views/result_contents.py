@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
 from functools import partial
-from itertools import islice, product
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from earthspin.bodies import in_a_sentence
 from earthspin.engine.accessor import Answer, is_ensemble
 from earthspin.engine.origin import is_whole, without_lost_units
 from earthspin.engine.question import Question
-from earthspin.engine.variables import from_si
+from earthspin.engine.variables import from_si, places
 from earthspin.errors import listed
 from earthspin.scenes import QUESTIONS, load_scene, run_tree
 
@@ -94,8 +94,7 @@ def cases_of(result: Result) -> dict[str, Result]:
     dims = [] if is_ensemble(data) else [*_case_dims(data, question_of(result))]
     if not dims:
         return {"": result}
-    for place in islice(product(*(range(data.sizes[dim]) for dim in dims)), MOST_CASES):
-        at: Any = dict(zip(dims, place, strict=True))
+    for at in islice(places(data, dims), MOST_CASES):
         words = ", ".join(f"{dim} {data[dim].values[number]}" for dim, number in at.items())
         case = partial(xr.Dataset.isel, indexers=at, missing_dims="ignore")
         if isinstance(result, xr.Dataset):

@@ -6,14 +6,13 @@ import math
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 from typing import Any, Literal, SupportsFloat
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from earthspin.engine.variables import error_of, from_si, texts_as_columns
+from earthspin.engine.variables import error_of, from_si, places, texts_as_columns
 from earthspin.views.result_contents import Result, answer_of, section
 
 #: Below and from here on, numbers are written with a power of ten.
@@ -390,8 +389,7 @@ def data_columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, DataColumn]
     others = [dim for dim in values.dims if dim != rows]
     count = int(np.prod([values.sizes[dim] for dim in others], initial=1))
     if values.sizes[rows] and count <= MOST_COLUMNS:
-        for place in product(*(range(values.sizes[dim]) for dim in others)):
-            at = dict(zip(others, place, strict=True))
+        for at in places(values, others):
             words = [_text(data[dim].values.tolist()[k]) for dim, k in at.items()]
             quantity, comma, unit = label(values).rpartition(", ")
             head = " ".join([quantity if comma else unit, *words]) + (f", {unit}" if comma else "")
