@@ -135,7 +135,7 @@ def rates(tree: Result) -> TextTable:
 def sky_and_calendar(tree: Result) -> TextTable:
     """Table of general precession, tropical year and calendar drift, with values for comparison."""
     seasons, text = section(tree, "seasons"), "{} (source text, I.8)".format
-    rows = [
+    rows: list[tuple[Column | str, str]] = [
         ("general_precession", f"{P_A_RATE.value:.5f} (IAU 2006)"),
         ("general_precession_period", text("25800")),
         (Column("time_per_degree", ".3f", "years per degree"), text("72")),
