@@ -22,19 +22,6 @@ STILL = 1e-6
 STEADY = 0.02
 
 
-def _caption_of_herpolhode(tree: Result) -> str:
-    poinsot = section(tree, "poinsot")
-    returns = "The curve does not come back to its start."
-    if "herpolhode_advance" in poinsot:
-        turned = float(np.degrees(poinsot.herpolhode_advance))
-        period = float(poinsot.polhode_period)
-        returns = f"In one period of the polhode, {period:.4g} s, it advances by {turned:.4f} deg."
-    return (
-        "Path of the tip of the angular velocity in the invariable plane, between its two bounding "
-        f"circles (dashed). {returns}"
-    )
-
-
 @page_figure(
     "Angular velocity in the body",
     "Components of the angular velocity along the principal axes.",
@@ -58,7 +45,15 @@ def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-@page_figure("Herpolhode", _caption_of_herpolhode, section="poinsot", square=True, points=POINTS)
+@page_figure(
+    "Herpolhode",
+    "Path of the tip of the angular velocity in the invariable plane, between its two bounding "
+    "circles (dashed). The table gives the angle by which it advances in a period of the polhode, "
+    "if the motion is periodic.",
+    section="poinsot",
+    square=True,
+    points=POINTS,
+)
 def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the path of the angular velocity in the invariable plane (herpolhode) and its bounds.
 

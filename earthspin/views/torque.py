@@ -24,13 +24,9 @@ def _caption_of_torque(tree: Result, smooth_days: float | None = None) -> str:
     if smooth_days:
         lines = (
             f"Bands lie between the extremes within {smooth_days:g} days, thick lines are means "
-            "over the same time."
+            "over the same time. To see: the band of the Moon swells and shrinks with the "
+            "inclination of its orbit to the equator, and its mean with it."
         )
-        if "moon" in answer_of(tree).perturber:
-            lines += (
-                " To see: the band of the Moon swells and shrinks with the inclination of its "
-                "orbit to the equator, and its mean with it."
-            )
     return (
         f"Above: declination, referred to the {answer_of(tree).torque.attrs['frame']}. Below: the "
         "component of the torque towards the equinox; it hardly ever changes sign, so it always "
