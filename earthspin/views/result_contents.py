@@ -174,7 +174,9 @@ def _in_order(data: xr.Dataset, question: type[Question]) -> xr.Dataset:
         {
             dim: order
             for dim, order in orders.items()
-            if dim in data.dims and sorted(data[dim].values.tolist()) == sorted(order)
+            if dim in data.dims
+            and sorted(data[dim].values.tolist()) == sorted(order)
+            and data.indexes[dim].is_unique
         }
     )
 
