@@ -24,7 +24,7 @@ class NearestStars(Variables, along=("nearest", "epoch")):
         "deg",
         "distance from the celestial pole",
         comment="the error contains that of the pole and the catalogue's errors of the proper "
-        "motions, but not the orbits of double stars",
+        "motions",
     )
     magnitude = number("1", "visual magnitude", no_error="a number of the catalogue")
     nearest = labels()

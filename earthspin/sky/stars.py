@@ -23,8 +23,9 @@ class Star(NamedTuple):
     proper_motion : (float, float)
         mas a year, in right ascension times the cosine of the declination, and in declination.
     proper_motion_error : float
-        The larger standard error of the two, mas a year. It does not contain the motion of a star
-        in the orbit of a double star.
+        The larger standard error of the two, mas a year. That of a double star (Dubhe, Mizar) is
+        the larger difference of its motion from the new reduction (van Leeuwen 2007), because the
+        motion in the orbit is in neither.
     """
 
     name: str
@@ -52,9 +53,9 @@ STARS = (
     Star("Vega", 279.2347, 38.7837, 0.03, (201.02, 287.46), 0.6),
     Star("Tau Herculis", 244.9352, 46.3134, 3.91, (-13.15, 39.31), 0.5),
     Star("Alkaid", 206.8852, 49.3133, 1.85, (-121.23, -15.56), 0.57),
-    Star("Mizar", 200.9814, 54.9254, 2.23, (121.23, -22.01), 0.48),
+    Star("Mizar", 200.9814, 54.9254, 2.23, (121.23, -22.01), 3.96),
     Star("Alioth", 193.5073, 55.9598, 1.76, (111.74, -8.99), 0.49),
-    Star("Dubhe", 165.9320, 61.7510, 1.81, (-136.46, -35.25), 0.45),
+    Star("Dubhe", 165.9320, 61.7510, 1.81, (-136.46, -35.25), 2.35),
 )
 
 

@@ -64,9 +64,11 @@ def test_stars_are_those_of_the_new_reduction(star: Star) -> None:
     # four decimals of a degree, and 1e-5 from the motion of Polaris
     np.testing.assert_allclose(away, 0, atol=7e-5, rtol=0)
     apart = np.array(star.proper_motion) - (along, north)
-    allowed = 5 if star.name in DOUBLE else 3.5 * np.hypot(star.proper_motion_error, errors)
-    assert np.all(abs(apart) < allowed)
-    assert 0.4 < star.proper_motion_error < 0.7
+    if star.name in DOUBLE:
+        assert star.proper_motion_error == pytest.approx(np.max(abs(apart)), rel=1e-9, abs=0)
+    else:
+        assert np.all(abs(apart) < 3.5 * np.hypot(star.proper_motion_error, errors))
+        assert 0.4 < star.proper_motion_error < 0.7
 
 
 def test_errors_contain_the_pole_and_the_proper_motions() -> None:
