@@ -66,6 +66,18 @@ def test_impossible_bodies_name_the_field(change: dict, field: str) -> None:
     assert error.value.field == field
 
 
+def test_the_meridian_of_an_earlier_scene_is_the_long_axis_of_the_earth() -> None:
+    """Scenes before `prime_meridian` had 4.6297550 rad, at which the axis is at 14.93 deg west."""
+    table = EARTH.write() | {"meridian": "4.629755030133973 rad"}
+    del table["long_axis"]
+    for scene in (table, {"meridian": "4.629755030133973 rad"}):
+        assert math.degrees(Body.read(scene, Where("body")).long_axis) == pytest.approx(
+            -14.93, abs=0.005, rel=0
+        )
+    mars = Body.read({"from": "mars", "meridian": "0.5 rad"}, Where("body"))
+    assert (mars.long_axis, mars.prime_meridian) == (0.5, None)
+
+
 def test_a_hollow_sphere_is_the_limit_of_round_bodies() -> None:
     """It has 2/3 M a2 about each axis, 1.620e38 kg m2 with mass and radius of the Earth."""
     shell = EARTH.replace(moments=(1.62e38, 1.62e38, 1.621e38))

@@ -1,5 +1,6 @@
 """A body at an obliquity: the angle, the equinox that stays, and what is refused."""
 
+import dataclasses
 import math
 from typing import Any
 
@@ -9,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import earthspin
-from earthspin import EARTH, MARS, Body, BodyError, Orbit
+from earthspin import EARTH, MARS, Body, BodyError, Orbit, SceneError
 from earthspin.bodies import SATURN, URANUS
 from earthspin.errors import Where
 
@@ -120,6 +121,42 @@ def test_a_normal_that_was_given_stays_and_a_derived_one_follows() -> None:
     for body, angle in ((derived, 5.0), (derived.replace(orbit=orbits[1]), 60.0)):
         lean = math.degrees(math.acos(body.orbit_pole.vector() @ ecliptic))
         assert lean == pytest.approx(angle, abs=1e-9, rel=0)
+
+
+def test_moments_and_mass_make_a_body() -> None:
+    """Of a brick of 1 x 2 x 3 m and 6 kg: M (b2 + c2)/12 and so on."""
+    moments, mass = (2.5, 5.0, 6.5), 6.0
+    brick: dict[str, Any] = {"name": "brick", "mass": mass, "radius": 1.5}
+    body = Body(**brick, moments=moments)
+    assert np.allclose(body.moments, moments, rtol=1e-14, atol=0)
+    assert body.mass == pytest.approx(mass, rel=1e-15, abs=0)
+    assert body == Body(name="brick", mass=mass, radius=1.5).replace(moments=moments)
+    assert Body.read(body.write(), Where("body")) == body
+    larger = dataclasses.replace(body, radius=3.0)
+    assert (larger.j2, larger.triaxiality) == (body.j2, body.triaxiality)
+    with pytest.raises(BodyError, match="already gives j2"):
+        Body(**brick, moments=moments, j2=1e-3)
+    with pytest.raises(BodyError, match="radius"):
+        Body(name="brick", mass=mass, moments=moments)
+
+
+def test_the_number_of_one_satellite_is_a_key_of_a_scene() -> None:
+    """GM of Titan in km3/s2: 8978.1 of JPL; twice the mass doubles the torque of Titan alone."""
+    heavy = earthspin.load_scene(
+        "precession", {"body": "saturn", "body.satellites.titan.gm": "2e4 km3/s2"}
+    )
+    gm = {moon.name: moon.gm for moon in heavy.body.satellites}  # type: ignore[attr-defined]
+    assert gm == {moon.name: moon.gm for moon in SATURN.satellites} | {"Titan": 2e13}
+    table = {"from": "saturn", "satellites": {"Titan": {"a": "1.2e6 km"}, "rhea": {"i": "1 deg"}}}
+    again = Body.read(table, Where("body"))
+    assert (again.satellites[3].a, again.satellites[2].i) == (1.2e9, math.radians(1))
+    for moons, words in (
+        ({"titan": {"mass": 1}}, "titan.mass"),
+        ({"titania": {"gm": "1 km3/s2"}}, "satellites.titan"),
+        ({"titan": 3}, "give a table"),
+    ):
+        with pytest.raises(SceneError, match=words):
+            Body.read({"from": "saturn", "satellites": moons}, Where("body"))
 
 
 def test_an_unknown_element_of_an_orbit_is_refused() -> None:

@@ -8,9 +8,9 @@ are in other files of this package, with the source and uncertainty of every num
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import InitVar, dataclass, field, fields, replace
-from functools import reduce
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import InitVar, dataclass, field, replace
+from functools import reduce, wraps
 from operator import and_
 from typing import Annotated, Any, ClassVar, Literal, overload
 
@@ -21,17 +21,24 @@ from earthspin._lazy import xr
 from earthspin.bodies import checks, kinds, shapes
 from earthspin.bodies.checks import all_of, are_close, is_close, is_same
 from earthspin.bodies.kinds import Magnitude
-from earthspin.bodies.laplace_plane import laplace_plane
+from earthspin.bodies.laplace_plane import reference_plane
 from earthspin.bodies.orbit import Orbit, Satellite, SatelliteList
-from earthspin.errors import ApartError, ArgumentError, BodyError, EarthspinError, Where, nearest
+from earthspin.errors import (
+    ApartError,
+    ArgumentError,
+    BodyError,
+    EarthspinError,
+    SceneError,
+    Where,
+    nearest,
+)
 from earthspin.html_table import card
 from earthspin.interior.layers import LayeredBody
 from earthspin.numerics.arrays import Numeric
 from earthspin.sky import poles
-from earthspin.sky.elements import Plane
 from earthspin.sky.poles import Direction, FixedPole, MovingPole, PoleModel, TiltedPole
-from earthspin.sky.sources import describe_position, read_position
-from earthspin.units import Text, is_si
+from earthspin.sky.sources import describe_position
+from earthspin.units import Text
 
 #: Fields that hold a number, or None if it is not known.
 NumberName = Literal[
@@ -138,6 +145,8 @@ class Body(checks.Record, shapes.FromMass):
         Given instead of `pole`: angle from the orbit normal to the pole, rad, 0 to pi, which stays
         if the orbit is replaced. The direction of the equinox does not change; for a new body it is
         the node of the orbit on the equator of the ICRF.
+    mass : float
+        Given instead of `gm`, kg.
     moments : sequence of float
         Given instead of `j2`, `dynamical_flattening` and `triaxiality`: three principal moments, kg
         m2, the polar one last.
@@ -182,9 +191,9 @@ class Body(checks.Record, shapes.FromMass):
     long_axis: Annotated[float, Magnitude("rad", "75 deg")] = 0.0
     flattening: Annotated[Numeric | None, Magnitude("", "3.35e-3", "(a - c)/a")] = None
     spin_period: Annotated[Numeric | None, Magnitude("s", "23.93 h")] = None
-    pole: Annotated[PoleModel | None, kinds.PoleInText()] = None
+    pole: Annotated[PoleModel | None, kinds.PoleInText(poles.pole_of)] = None
     pole_uncertainty: Annotated[float | None, Magnitude("rad", "0.5 arcsec")] = None
-    orbit_pole: Annotated[Direction | None, kinds.PoleInText()] = None
+    orbit_pole: Annotated[Direction | None, kinds.PoleInText(Direction.of)] = None
     orbital_period: Annotated[float | None, Magnitude("s", "365.25 d")] = None
     cycle: Annotated[float, Magnitude("s", "4333 d")] = c.JUPITER_ORBITAL_PERIOD.value
     # from the scatter of averages about epochs every 1500 d in DE440 (docs/accuracy.md)
@@ -193,7 +202,7 @@ class Body(checks.Record, shapes.FromMass):
     observed_wobble: Annotated[c.Constant | None, kinds.CitedPeriod()] = None
     position: Annotated[Any, kinds.PositionConverter()] = None
     orbit: Annotated[Orbit | None, Orbit] = None
-    relative_uncertainty: Annotated[Mapping[str, float], kinds.Uncertainties()] = field(
+    relative_uncertainty: Annotated[Mapping[str, float], kinds.NumberTable()] = field(
         default_factory=dict
     )
     satellites: Annotated[tuple[Satellite, ...], SatelliteList()] = ()
@@ -211,38 +220,21 @@ class Body(checks.Record, shapes.FromMass):
     UNITS: ClassVar[dict[str, str]]
     LABELLED: ClassVar[frozenset[str]]
 
-    def __new__(cls, *places: object, **fields: object) -> Body:
-        """Refuse positional arguments, and keyword arguments that are not fields of a body."""
-        if places:
-            raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
-        for key in fields.keys() - cls.KINDS.keys() - {"obliquity"}:
-            use = f"use Body(...).replace({key}=...)" if key in _CONVERTERS else ""
-            problem = _ADVICE.get(key) or use or nearest(key, cls.KINDS)
-            name = fields.get("name")
-            raise BodyError(name if isinstance(name, str) else "", key, fields[key], problem)
-        if fields and (missing := _missing_fields(NOTHING, fields)):  # a copy begins without fields
-            raise ArgumentError(f"Body() {missing}")
-        return super().__new__(cls)
-
     def __post_init__(self, obliquity: Any) -> None:
         if obliquity is not None:
             if self.pole is not None:
                 raise BodyError(self.name, "obliquity", obliquity, _ONE_AXIS)
             self._set(pole=TiltedPole.at(self._checked_obliquity(obliquity)))
-        self._read_units()
-        checks.check_kinds(self._fields(), self.UNITS)
-        for name, read in (("pole", poles.pole_of), ("orbit_pole", Direction.of)):
-            value = getattr(self, name)
-            if value is not None and not isinstance(value, Direction):
-                self._set(**{name: checks.as_direction(self.name, name, value, read)})
-        if self.position is not None:
-            where = Where(f"{self.name}.position")
-            self._set(position=read_position(self.position, where))
-        where = Where(f"{self.name}.satellites")
-        self._set(satellites=self.KINDS["satellites"].read(self.satellites, where))
+        try:
+            self._set(**self.checked(vars(self), Where(str(self.name))))
+        except SceneError as error:
+            field = error.key.removeprefix(f"{self.name}.")
+            if field not in (*self.UNITS, "pole", "orbit_pole"):
+                raise
+            raise BodyError(self.name, field, error.given, error.problem) from None
         if self.orbit is not None:
-            self._read_orbit(self.orbit)
-        checks.check_numbers(self._fields(), self.UNITS)
+            self._place_on(self.orbit)
+        checks.check_numbers(vars(self), self.UNITS)
         checks.check_labels(self.name, self.arrays)
         if isinstance(self.pole, TiltedPole):
             self._set(pole=self._pole_at(self.pole))
@@ -276,21 +268,8 @@ class Body(checks.Record, shapes.FromMass):
             raise BodyError(self.name, "orbit.plane", "equator", allowed)
         return TiltedPole.at(pole.obliquity, pole.equinox_of, self.orbit_pole)
 
-    def _fields(self) -> dict[str, Any]:
-        return {f.name: getattr(self, f.name) for f in fields(self)}
-
-    def _read_units(self) -> None:
-        """Replace numbers, text, tables and Quantities by their SI values."""
-        for name in (*self.UNITS, "pole", "orbit_pole", "interior"):
-            value = getattr(self, name)
-            given = value is not None or name in ("gm", "cycle")
-            if given and not is_si(value, self.UNITS.get(name, "")):
-                self._set(**{name: self.KINDS[name].read(value, Where(f"{self.name}.{name}"))})
-
-    def _read_orbit(self, value: object) -> None:
-        """Read the orbital elements; for a spinning body, derive the normal of its orbit."""
-        orbit = Orbit.read(value, Where(f"{self.name}.orbit"))
-        self._set(orbit=orbit)
+    def _place_on(self, orbit: Orbit) -> None:
+        """For a spinning body, derive the normal of its orbit."""
         if self.position is not None:
             raise BodyError(self.name, "orbit", str(orbit), "position places it; set one")
         if self.pole is not None and not self.pole.of_the_iau and self.orbit_pole is None:
@@ -299,8 +278,8 @@ class Body(checks.Record, shapes.FromMass):
                     "the plane of its own orbit cannot be its reference plane; use another plane"
                 )
                 raise BodyError(self.name, "orbit.plane", "orbit", allowed)
-            plane = laplace_plane(orbit, np.min(self.gm), BODIES.get(orbit.about))
-            plane = plane or Plane.of(orbit.plane or "ecliptic", self.pole, None)
+            planet = BODIES.get(orbit.about)
+            plane = reference_plane(orbit, np.min(self.gm), planet, self.pole, None)
             elements = orbit.i, orbit.node, orbit.node_period
             self._set(orbit_pole=poles.OrbitNormal(*poles.of_each(plane.mean_normal, *elements)))
 
@@ -369,7 +348,8 @@ class Body(checks.Record, shapes.FromMass):
     def read(cls, value: object, where: Where) -> Body:
         """Return a `Body` from a `Body`, a name, or a table of changes to a named body.
 
-        A table without "from" changes the Earth; a question adds its default body as "from".
+        A table without "from" changes the Earth; a question adds its default body as "from". A
+        table `satellites` changes numbers of satellites, by their names.
 
         Raises
         ------
@@ -384,10 +364,15 @@ class Body(checks.Record, shapes.FromMass):
         table = dict(value)
         start = table.pop("from", "earth")
         meridian = table.pop("meridian", None)
+        by_name = table.pop("satellites") if isinstance(table.get("satellites"), Mapping) else {}
         where.refuse_unknown(table, ["from", *_CONVERTERS])
         changes = {key: _CONVERTERS[key].read(entry, where.at(key)) for key, entry in table.items()}
+        for moon, elements in by_name.items():
+            owner = f"satellites.{moon.lower()}"
+            read = Satellite.checked(elements, where.at(owner))
+            changes |= {f"{owner}.{element}": value for element, value in read.items()}
         if meridian is not None:
-            of_the_iau = changes.get("pole", start == "earth" and "iau2006") == "iau2006"
+            of_the_iau = table.get("pole", start == "earth" and "iau2006") == "iau2006"
             angle = Magnitude("rad", "10 deg").read(meridian, where.at("meridian"))
             changes |= _without_meridian(angle, of_the_iau)
         if "from" not in value and "name" in changes:
@@ -399,8 +384,7 @@ class Body(checks.Record, shapes.FromMass):
                     raise where.error(dict(table), f"a body from {start} {missing}")
                 if start == LAYERS:
                     return cls.from_layers(changes.pop("interior"), **changes)
-                derived = {key: changes.pop(key) for key in _DERIVED & changes.keys()}
-                return cls(**changes).replace(**derived)
+                return cls(**changes)
             return body(start, where.at("from")).replace(**changes)
         except (EarthspinError, TypeError) as error:
             if isinstance(error, EarthspinError) and not isinstance(error, BodyError):
@@ -614,18 +598,14 @@ class Body(checks.Record, shapes.FromMass):
                 raise BodyError(self.name, key, value, problem)
             if value is None and key not in self.KINDS:
                 raise BodyError(self.name, key, value, f"give {_CONVERTERS[key].words}")
-            if type(value) is not float and value is not None and key != "obliquity":
-                changes[key] = _CONVERTERS[key].read(value, Where(key))
-        if "mass" in changes:
-            if "gm" in changes:
-                raise BodyError(self.name, "mass", changes["mass"], "gm already gives it; set one")
-            changes["gm"] = c.G.value * changes.pop("mass")
+        changes = _without_mass_and_moments(changes, vars(self))
         obliquity = changes.pop("obliquity", None)
         if obliquity is not None and changes.get("pole") is not None:
             raise BodyError(self.name, "obliquity", obliquity, _ONE_AXIS)
         if changes.get("prime_meridian") is not None:
             changes.setdefault("prime_meridian_uncertainty", None)
-        changes |= self._figure(changes)
+        if changes.get("j2") is not None and "dynamical_flattening" not in changes:
+            changes |= self._flattening(changes["j2"])
         # What follows from the previous orbit or pole is derived anew.
         derived = isinstance(self.orbit_pole, poles.OrbitNormal)
         follows = (derived and "pole" in changes) or (
@@ -640,7 +620,9 @@ class Body(checks.Record, shapes.FromMass):
         changed = _replace(self, **({"relative_uncertainty": uncertainties} | changes))
         if obliquity is not None:
             changed = changed._tilted(obliquity)
-        if "observed_wobble" in changes or not self._is_another(changes):
+        affects_wobble = _WOBBLE_FIELDS & changes.keys()
+        same = all(is_close(getattr(changed, n), getattr(self, n)) for n in affects_wobble)
+        if "observed_wobble" in changes or same:  # to 1 %
             return changed
         return _replace(changed, observed_wobble=None)
 
@@ -682,34 +664,15 @@ class Body(checks.Record, shapes.FromMass):
             normal = ecliptic if self.orbit is None else None
         return _replace(self, pole=pole, orbit_pole=normal)
 
-    def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
-        """Return J2, H and triaxiality from new moments of inertia, or only H from a new J2.
-
-        Remove `moments` from the changes.
-        """
-        if "moments" in changes:
-            moments = changes.pop("moments")
-            if clash := _FIGURE & changes.keys():
-                allowed = f"moments already give {sorted(clash)[0]}; set one"
-                raise BodyError(self.name, "moments", moments, allowed)
-            gm: Numeric = changes.get("gm", self.gm)
-            radius: Numeric = changes["radius"] if "radius" in changes else self.needed("radius")
-            return shapes.figure_of(self.name, moments, gm / c.G.value * radius**2)
-        j2 = changes.get("j2")
-        if j2 is None or self.j2 is None or "dynamical_flattening" in changes:
+    def _flattening(self, j2: object) -> dict[str, Numeric]:
+        """Return H from a new J2 with the same C, as a dict; empty if J2 is not known."""
+        if self.j2 is None:
             return {}
         if not all_of(self.j2 != 0):
             allowed = "set dynamical_flattening too: C is not known"
             raise BodyError(self.name, "j2", j2, allowed)
-        return {"dynamical_flattening": self.needed("dynamical_flattening") * j2 / self.j2}
-
-    def _is_another(self, changes: Mapping[str, Any]) -> bool:
-        """Return True if the changes are too large for the observed wobble to apply to the body.
-
-        This is so if a field that affects the wobble differs by more than 1 % from this body.
-        """
-        changed = _WOBBLE_FIELDS & set(changes)
-        return not all(is_close(changes[name], getattr(self, name)) for name in changed)
+        new = self.KINDS["j2"].read(j2, Where(f"{self.name}.j2"))
+        return {"dynamical_flattening": self.needed("dynamical_flattening") * new / self.j2}
 
     @property
     def are_as_named(self) -> Numeric:
@@ -726,12 +689,65 @@ class Body(checks.Record, shapes.FromMass):
         return all_of(self.are_as_named)
 
 
+def _without_mass_and_moments(given: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, Any]:
+    """Replace mass and principal moments of inertia by the fields that follow from them.
+
+    Parameters
+    ----------
+    given : mapping
+        Numbers for a new or changed body.
+    known : mapping
+        All fields of the body before the change, or `given` for a new body.
+    """
+    name = known["name"]
+    for key, follows in _FOLLOWS.items():
+        if key in given and (clash := follows & given.keys()):
+            raise BodyError(name, key, given[key], f"it already gives {min(clash)}; set one")
+    values = {key: value for key, value in given.items() if key not in _FOLLOWS}
+    read = {
+        key: _CONVERTERS[key].read(given[key], Where(key)) for key in _FOLLOWS.keys() & given.keys()
+    }
+    if "mass" in read:
+        values["gm"] = c.G.value * read["mass"]
+    if "moments" in read:
+        size = {key: {**known, **values}.get(key) for key in ("gm", "radius")}
+        if size["radius"] is None:
+            raise BodyError.lacking(name, {"radius": Body.KINDS["radius"].form})
+        gm, radius = (Body.KINDS[key].read(value, Where(key)) for key, value in size.items())
+        values |= shapes.figure_of(name, read["moments"], gm / c.G.value * radius**2)
+    return values
+
+
 def _replace(body: Body, **changes: Any) -> Body:
     """Return a copy of a body with other fields, made anew and checked."""
     return Body(**(vars(body) | changes))
 
 
-Body.KINDS = kinds.kinds_of(Body)
+def _by_keyword(make: Callable[..., None]) -> Callable[..., None]:
+    """Decorate the `__init__` of a body: refuse unknown keys, and read mass and moments.
+
+    Both are keywords and no fields, because `dataclasses.replace` would copy them to a body with
+    another GM or radius.
+    """
+
+    @wraps(make)
+    def init(self: Body, *places: object, **given: Any) -> None:
+        if places:
+            raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
+        for key in given.keys() - _CONVERTERS.keys():
+            name = given.get("name")
+            problem = _ADVICE.get(key) or nearest(key, _CONVERTERS)
+            raise BodyError(name if isinstance(name, str) else "", key, given[key], problem)
+        if missing := _missing_fields(NOTHING, given):
+            raise ArgumentError(f"Body() {missing}")
+        make(self, **_without_mass_and_moments(given, given))
+
+    return init
+
+
+Body.__init__ = _by_keyword(Body.__init__)  # type: ignore[method-assign]
+
+Body.KINDS, Body.RULES = kinds.kinds_of(Body), checks.RULES_OF_BODIES
 Body.UNITS = {name: kind.unit for name, kind in Body.KINDS.items() if isinstance(kind, Magnitude)}
 Body.LABELLED = frozenset(Body.UNITS) - {
     "prime_meridian", "prime_meridian_uncertainty", "long_axis", "pole_uncertainty",
@@ -744,11 +760,11 @@ _CONVERTERS: dict[str, Any] = {
     "obliquity": kinds.OBLIQUITY,
 }  # fmt: skip
 
-#: Fields that follow from moments of inertia.
-_FIGURE = frozenset({"j2", "dynamical_flattening", "triaxiality"})
-
-#: Keys that change other fields of a body.
-_DERIVED = _CONVERTERS.keys() - Body.KINDS.keys() - {"obliquity"}
+#: Fields that follow from other keys.
+_FOLLOWS = {
+    "mass": frozenset({"gm"}),
+    "moments": frozenset({"j2", "dynamical_flattening", "triaxiality"}),
+}
 
 #: Required keys of a table, by its "from", each with an example value.
 _REQUIRED_KEYS = {
@@ -758,15 +774,21 @@ _REQUIRED_KEYS = {
 
 #: Fields that most questions about a spinning body need, and keys that replace some of them.
 SPIN_FIELDS = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
-_INSTEAD = {"j2": "moments", "dynamical_flattening": "moments", "pole": "obliquity"}
+_INSTEAD = {
+    "gm": "mass", "j2": "moments", "dynamical_flattening": "moments", "pole": "obliquity",
+}  # fmt: skip
 
 
 def _missing_fields(start: str, table: Mapping[str, Any]) -> str:
     """Text that lists the required fields that a table or call lacks; empty if it has all."""
-    missing = [f"{name} = {e}" for name, e in _REQUIRED_KEYS[start].items() if name not in table]
+
+    def lacks(name: str) -> bool:
+        return {name, _INSTEAD.get(name)}.isdisjoint(table)
+
+    missing = [f"{name} = {e}" for name, e in _REQUIRED_KEYS[start].items() if lacks(name)]
     if not missing:
         return ""
-    spin = [name for name in SPIN_FIELDS if not {name, _INSTEAD.get(name)} & table.keys()]
+    spin = [name for name in SPIN_FIELDS if lacks(name)]
     spins = f"; a spinning one also needs {', '.join(spin)}" if start == NOTHING and spin else ""
     return f"needs more, like {', '.join(missing)}{spins}"
 
@@ -787,7 +809,6 @@ def _without_meridian(meridian: float, of_the_iau: bool) -> dict[str, float | No
 
 #: Advice for quantities that are no fields where they were given.
 _ADVICE = {
-    "mass": f"give gm = {c.G.value:g} m3 kg-1 s-2 * mass",
     "polar_moment_factor": "set dynamical_flattening = j2/polar_moment_factor",
     "meridian": "give prime_meridian, from the node of the equator, and long_axis",
 }

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from typing import Any, ClassVar, Self
 
-from earthspin.constants import SPEED_OF_LIGHT, Constant, G
-from earthspin.errors import BodyError, UndefinedError, nearest
-from earthspin.interior.layers import LayeredBody
+import numpy as np
+
+from earthspin.constants import SPEED_OF_LIGHT, G
+from earthspin.errors import BodyError, UndefinedError, Where, nearest
 from earthspin.numerics.arrays import Numeric
-from earthspin.sky.poles import NAMED_POLES
+from earthspin.units import Plain
 
 # --- element-wise tests of numbers and labelled arrays --------------------------------------------
 
+
+#: Names of numbers, each with a condition on it and the text of the message.
+Rules = tuple[tuple[str, Callable[[Any], Any], str], ...]
 
 #: Largest relative difference between two values that count as the same body's.
 SAME_BODY = 0.01
@@ -53,6 +57,65 @@ def is_same(value: object, other: object) -> bool:
 class Record:
     """Base class of records whose numbers may be labelled arrays."""
 
+    words: ClassVar[str]
+    #: Converters of the fields.
+    KINDS: ClassVar[dict[str, Any]]
+    #: Fields that must be given.
+    REQUIRED: ClassVar[tuple[str, ...]] = ()
+    #: Conditions on single numbers, with the text of the message.
+    RULES: ClassVar[Rules] = ()
+    #: Values that are not written to scene files.
+    UNWRITTEN: ClassVar[tuple[Any, ...]] = (None, "")
+
+    @classmethod
+    def read(cls, value: object, where: Where) -> Self:
+        """Read a record, or a table of its numbers.
+
+        Raises
+        ------
+        SceneError, UnitsError
+            If a key is unknown or missing, or a number is impossible.
+        """
+        return value if isinstance(value, cls) else cls(**cls.checked(value, where, whole=True))
+
+    @classmethod
+    def checked(cls, table: object, where: Where, *, whole: bool = False) -> dict[str, Any]:
+        """Convert the numbers of a table to SI units, and refuse impossible ones.
+
+        With `whole`, the required fields must be among them.
+
+        Raises
+        ------
+        SceneError, UnitsError
+            Names the field.
+        """
+        if not isinstance(table, Mapping):
+            raise where.error(table, f"give {cls.words}")
+        where.refuse_unknown(table, cls.KINDS)
+        for name in cls.REQUIRED if whole else ():
+            if name not in table:
+                raise where.at(name).error(None, f"give {cls.words}")
+        read = {}
+        for name, value in table.items():
+            if value is not None or getattr(cls, name, 0) is not None:  # None is no default
+                read[name] = cls.KINDS[name].read(value, where.at(name))
+            if isinstance(read.get(name), np.ndarray):
+                problem = "give one number, or a DataArray with named dimensions"
+                raise where.at(name).error(value, problem)
+        for name, holds, allowed in cls.RULES:
+            if name in read and not all_of(holds(read[name])):
+                raise where.at(name).error(table[name], allowed)
+        return read
+
+    def write(self) -> Plain:
+        """Return a table of all numbers that are set, for scene files."""
+        values = {name: getattr(self, name) for name in self.KINDS}
+        return {
+            name: self.KINDS[name].write(value)
+            for name, value in values.items()
+            if not any(is_same(value, nothing) for nothing in self.UNWRITTEN)
+        }
+
     def __eq__(self, other: object) -> bool:
         """Return True if all fields are identical, including the labels of arrays."""
         if type(self) is not type(other):
@@ -86,7 +149,7 @@ HOLLOW_SPHERE, NEARLY_ROUND = 1.01 * 2 / 3, 0.05
 
 _THIN_DISC = "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)"
 #: Conditions on single numbers, in the order of the checks, with the text of the message.
-_CONDITIONS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
+RULES_OF_BODIES: Rules = (
     ("gm", lambda gm: gm >= 0, "a mass must be zero or more"),
     ("gm", lambda gm: gm <= LARGEST_GM, f"give at most {LARGEST_GM:g} m3 s-2"),
     ("cycle", lambda t: t > 0, "a cycle must be greater than zero"),
@@ -104,27 +167,6 @@ _CONDITIONS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
 )
 
 
-def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
-    """Raise an error if a field of a body is of a wrong type or not finite, or if labels disagree.
-
-    Parameters
-    ----------
-    body : mapping
-    numbers : iterable of str
-        Fields that are numbers.
-
-    Raises
-    ------
-    BodyError
-        Names the first field of the wrong type.
-    """
-    name = body["name"]
-    for field in numbers:
-        if body[field] is not None and not all_of(is_finite(body[field])):
-            raise BodyError(name, field, body[field], "it must be a finite number")
-    _check_words(body)
-
-
 def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
     """Raise an error if a number is out of range, or J2, H and triaxiality contradict each other.
 
@@ -140,10 +182,6 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
         If no body can have these numbers.
     """
     name = body["name"]
-    for field, holds, allowed in _CONDITIONS:
-        value = body[field]
-        if value is not None and not all_of(holds(value)):
-            raise BodyError(name, field, value, allowed)
     gm, radius = body["gm"], body["radius"]
     if radius is not None:
         with_size = gm * radius * radius
@@ -191,8 +229,6 @@ def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric
     if not all_of((abs(j2) <= abs(h)) | (h == 0)):
         allowed = f"C = (j2/H) M a2 cannot exceed M a2, so j2 is at most H = {h!r}"
         raise BodyError(name, "j2", j2, allowed)
-    if triaxiality is None:
-        raise BodyError(name, "triaxiality", triaxiality, "give a number, 0 for a round body")
     if not all_of((triaxiality * abs(h) <= abs(j2)) | (h == 0)):
         raise BodyError(name, "triaxiality", triaxiality, "B - A cannot exceed C")
     # (A + B + C)/3 = 2/3 M <r2>, and no mass of a nearly round body is far outside its radius
@@ -200,26 +236,6 @@ def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric
     if not all_of(solid | (abs(j2) >= NEARLY_ROUND) | (triaxiality >= NEARLY_ROUND) | (h == 0)):
         allowed = "C = (j2/H) M a2 exceeds 2/3 M a2 of a hollow sphere; increase H or reduce j2"
         raise BodyError(name, "dynamical_flattening", h, allowed)
-
-
-def _check_words(body: Fields) -> None:
-    """Raise an error if name, codes, interior or uncertainties of a body have a wrong type."""
-    name = body["name"]
-    for field in ("name", "reference"):
-        if not isinstance(body[field], str):
-            raise BodyError(name, field, body[field], "give a line of text")
-    if not isinstance(body["interior"], str | LayeredBody | None):
-        allowed = "give the name of an interior, a LayeredBody, or a table of layers or samples"
-        raise BodyError(name, "interior", body["interior"], allowed)
-    codes, wobble, table = body["naif"], body["observed_wobble"], body["relative_uncertainty"]
-    if not isinstance(codes, tuple) or not all(type(code) is int for code in codes):
-        raise BodyError(name, "naif", codes, "give a tuple of whole numbers")
-    if not isinstance(wobble, Constant | None):
-        raise BodyError(name, "observed_wobble", wobble, "give a Constant")
-    if not isinstance(table, Mapping) or not all(
-        isinstance(u, int | float) for u in table.values()
-    ):
-        raise BodyError(name, "relative_uncertainty", table, "give a table of numbers")
 
 
 def check_labels(name: str, numbers: Fields) -> None:
@@ -243,29 +259,6 @@ def check_labels(name: str, numbers: Fields) -> None:
             if kind not in "fiubUM" and not text:
                 allowed = "give numbers, dates or words"
                 raise BodyError(name, field, f"labels '{label}'", allowed)
-
-
-def as_direction(name: str, field: str, value: Any, read: Callable[[Any], Any]) -> Any:
-    """Convert a spin axis or orbit normal by the function `read`; refuse arrays and wrong values.
-
-    Parameters
-    ----------
-    name, field : str
-        Names of the body and of its field, for the message.
-    value : object
-    read : callable
-
-    Raises
-    ------
-    BodyError
-        If `value` is not a single direction.
-    """
-    try:
-        return read(value)
-    except (ValueError, TypeError):
-        names = " or ".join(f"'{word}'" for word in NAMED_POLES)
-        allowed = f"write {names} or right ascension and declination, -90 to 90 deg, in rad"
-        raise BodyError(name, field, value, allowed) from None
 
 
 # --- limits that questions apply ------------------------------------------------------------------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, fields
 from functools import cache
 from itertools import pairwise
@@ -16,7 +16,15 @@ from earthspin.constants import Constant
 from earthspin.errors import EarthspinError, Where, nearest
 from earthspin.interior.layers import Layer, LayeredBody, from_samples
 from earthspin.interior.named import INTERIORS
-from earthspin.sky.poles import Direction, FixedPole, MovingPole, OrbitNormal, PoleModel, TiltedPole
+from earthspin.sky.poles import (
+    NAMED_POLES,
+    Direction,
+    FixedPole,
+    MovingPole,
+    OrbitNormal,
+    PoleModel,
+    TiltedPole,
+)
 from earthspin.sky.sources import read_position, write_position
 from earthspin.units import TURN, Plain, Text, is_whole, pack, quantity, real_numbers, unpack
 
@@ -72,30 +80,41 @@ class Magnitude:
 ANGLE, OBLIQUITY = Magnitude("rad", "317.7 deg"), Magnitude("rad", "40 deg", polar=True)
 
 
+@dataclass(frozen=True)
 class PoleInText:
-    """Converter of a pole: two angles, a name, or a table of an obliquity or of a moving pole."""
+    """Converter of a pole: two angles, a name, or a table of an obliquity or of a moving pole.
+
+    Attributes
+    ----------
+    of : callable
+        Function that makes the direction from a name, a pole, or two angles in radians.
+    """
+
+    of: Callable[[Any], Any]
 
     words, hint = "right ascension and declination", "tuple[float | str, float | str]"
     form = '["... deg", "... deg"]'
 
     def read(self, value: object, where: Where) -> Any:
         """Read the pole of a body: two angles (rad by default), a name, or a table."""
-        if isinstance(value, (str, OrbitNormal)) or hasattr(value, "of_the_iau"):
-            return value
         if isinstance(value, Mapping) and "obliquity" in value:
             where.refuse_unknown(value, ("obliquity", "equinox_of"))
             obliquity = OBLIQUITY.read(value["obliquity"], where.at("obliquity"))
             equinox_of = self.read(value["equinox_of"], where) if "equinox_of" in value else None
-            return TiltedPole.at(obliquity, equinox_of and FixedPole.of(equinox_of))
+            return TiltedPole.at(obliquity, equinox_of)
         if isinstance(value, Mapping):
             return MovingPole.read(value, where)
-        if not isinstance(value, (list, tuple)) or len(value) != 2:
-            problem = "an array" if getattr(value, "ndim", 0) else value
-            raise where.error(problem, f"give one direction: {self.words}")
-        angles = tuple(ANGLE.read(angle, where) for angle in value)
-        if any(map(np.ndim, angles)):
-            raise where.error("an array", f"give one direction: {self.words}")
-        return angles
+        if isinstance(value, (list, tuple)) and not isinstance(value, (FixedPole, OrbitNormal)):
+            value = tuple(ANGLE.read(angle, where) for angle in value)
+            if any(map(np.ndim, value)):
+                raise where.error("an array", f"give one direction: {self.words}")
+        try:
+            return self.of(value)
+        except (ValueError, TypeError):
+            given = "an array" if getattr(value, "ndim", 0) else value
+            names = " or ".join(f"'{word}'" for word in NAMED_POLES)
+            allowed = f"write {names} or {self.words}, -90 to 90 deg, in rad"
+            raise where.error(given, f"give one direction: {allowed}") from None
 
     def write(self, value: Direction | PoleModel) -> Plain:
         """Convert a pole for scene files: to a name, two angles, or a table."""
@@ -137,46 +156,39 @@ class Codes:
         return list(value)
 
 
-class Uncertainties:
-    """Converter of a table with the relative standard deviations of a body's numbers, by field."""
+class NumberTable:
+    """Converter of a table of plain numbers by name; the body checks the names."""
 
-    words, hint = "standard deviation divided by value, by field", "Mapping[str, float]"
+    words, hint = "a table of one number for each name", "Mapping[str, float]"
 
     def read(self, value: object, where: Where) -> dict[str, float]:
-        """Check a table of relative standard deviations, and return it by field name.
-
-        The body checks the field names.
-        """
+        """Check a table of numbers, such as relative standard deviations by field."""
         if not isinstance(value, Mapping):
-            raise where.error(value, "give a table of one number for each field")
-
-        return {name: quantity(u, "", where.at(name), "1e-4") for name, u in value.items()}
+            raise where.error(value, f"give {self.words}")
+        return {
+            name: quantity(number, "", where.at(name), "1e-4") for name, number in value.items()
+        }
 
     def write(self, value: Mapping[str, float]) -> Plain:
-        """Return the relative standard deviations as a table by field name, for scene files."""
+        """Return the numbers as a table by name, for scene files."""
         return dict(value)
 
 
-class StokesCoefficients:
+class StokesCoefficients(NumberTable):
     """Converter of a table of unnormalised Stokes coefficients by name, such as "c31"."""
 
-    words, hint = 'Stokes coefficients by name, like {"c31": 2.8e-5}', "Mapping[str, float]"
+    words = 'a table of Stokes coefficients by name, like {"c31": 2.8e-5}'
 
     def read(self, value: object, where: Where) -> dict[str, float]:
         """Check the names, of degree 3 to 9 and order up to the degree, and the numbers."""
-        if not isinstance(value, Mapping):
-            raise where.error(value, "give a table of one number for each coefficient")
-        for name in value:
+        coefficients = super().read(value, where)
+        for name in coefficients:
             match = re.fullmatch(r"c([3-9])(\d)|s([3-9])([1-9])", str(name))
             degree, order = (match[1] or match[3], match[2] or match[4]) if match else (0, 1)
             if int(order) > int(degree):
                 problem = "names are c30 to s99: degree 3 to 9, and an order up to the degree"
                 raise where.error(name, problem)
-        return {name: quantity(c, "", where.at(name), "2.8e-5") for name, c in value.items()}
-
-    def write(self, value: Mapping[str, float]) -> Plain:
-        """Return the coefficients as a table by name, for scene files."""
-        return dict(value)
+        return coefficients
 
 
 class CitedPeriod:
@@ -363,23 +375,16 @@ def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody
         raise where.error("a table", problem) from None
 
 
-class InteriorConverter:
+class InteriorConverter(Layers):
     """Converter of the input `interior` of a body: a name, a `LayeredBody` or its table."""
 
-    words = (
-        'a name, like "prem", or a table: name, and either layers (top, density, vp, vs, '
-        "shear_q) or samples (radius, density, vp, vs, shear_q)"
-    )
-    hint = Layers.hint
+    words = Layers.words.replace("the name of an interior with layers", "a name")
+    by_name = False
 
-    def read(self, value: object, where: Where) -> str | LayeredBody:
+    def read(self, value: object, where: Where) -> Any:
         """Return a name unchanged, or make a `LayeredBody` from a layered body or its table."""
-        if isinstance(value, (LayeredBody, Mapping)):
-            return Layers().read(value, where)
-        if not isinstance(value, str):
-            raise where.error(value, f"give {self.words}")
-        return Text().read(value, where)
+        return Text().read(value, where) if isinstance(value, str) else super().read(value, where)
 
-    def write(self, value: str | LayeredBody) -> str | dict[str, Any]:
+    def write(self, value: str | LayeredBody) -> Any:
         """Return the name of the interior, or a layered body as a table, for scene files."""
-        return value if isinstance(value, str) else Layers().write(value)
+        return value if isinstance(value, str) else super().write(value)

@@ -25,6 +25,15 @@ from earthspin.sky.poles import angle, fixed_equator
 _NORTH = np.array([0.0, 0.0, 1.0])
 
 
+def reference_plane(orbit: Orbit, gm: float, planet: Any, pole: Any, normal: Any) -> Plane:
+    """Plane to which elements refer: the Laplace plane of the moon, or that of the orbit's `plane`.
+
+    `pole` and `normal` are pole and orbit normal of the spinning body; the others are those of
+    `laplace_plane`.
+    """
+    return laplace_plane(orbit, gm, planet) or Plane.of(orbit.plane or "ecliptic", pole, normal)
+
+
 def laplace_plane(orbit: Orbit, gm: float, planet: Any) -> Plane | None:
     """Laplace plane of a moon with a given GM (m3 s-2); None if it is not the reference plane.
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import combinations
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from earthspin.bodies.kinds import Magnitude, kinds_of
 from earthspin.dates import MICROSECONDS_PER_DAY, microseconds
 from earthspin.errors import Where, checked
 from earthspin.numerics.arrays import Numeric
-from earthspin.units import Plain, Text, Word, is_si
+from earthspin.units import Plain, Text, Word
 
 # --- orbits ---------------------------------------------------------------------------------------
 
@@ -128,44 +127,19 @@ class Orbit(Record):
     hint: ClassVar[str] = "Orbit | Mapping[str, Any]"
 
     def __post_init__(self) -> None:
-        elements = {f.name: getattr(self, f.name) for f in fields(self)}
-        for name, value in _checked(elements, Where("orbit")).items():
-            object.__setattr__(self, name, value)
-
-    @classmethod
-    def read(cls, value: object, where: Where) -> Orbit:
-        """Read an orbit: an `Orbit`, or a table of its elements.
-
-        Raises
-        ------
-        SceneError, UnitsError
-            If an element is unknown or impossible.
-        """
-        if isinstance(value, cls):
-            return value
-        if not isinstance(value, Mapping):
-            raise where.error(value, f"give {cls.words}")
-        where.refuse_unknown(value, _KINDS)
-        return cls(**_checked(value, where))
-
-    def write(self) -> Plain:
-        """Convert the orbit to a table of all elements that are set, for scene files."""
-        values = {name: getattr(self, name) for name in _KINDS}
-        elements = {n: v for n, v in values.items() if not (v is None or is_same(v, ""))}
-        return {name: _KINDS[name].write(value) for name, value in elements.items()}
+        elements = self.checked(vars(self), Where("orbit"))
+        if elements.keys().isdisjoint(("a", "period")):
+            raise Where("orbit").error(None, _ONE_OF)
+        vars(self).update(elements)
 
     def __str__(self) -> str:
         elements = (
             f"{name} = {'an array' if isinstance(value, dict) else value}"
             for name, value in self.write().items()
-            if name != "reference" and not is_same(getattr(self, name), _DEFAULTS[name])
+            if name != "reference" and not is_same(getattr(self, name), getattr(Orbit, name))
         )
         return ", ".join(elements)
 
-
-_KINDS = kinds_of(Orbit)
-Orbit.__init__ = checked(Orbit.__init__)  # type: ignore[method-assign]
-_DEFAULTS = {f.name: f.default for f in fields(Orbit)}
 
 #: Plausibility bound: above the size and age of the observable universe, m and s.
 _LARGEST = 1e30
@@ -176,45 +150,22 @@ def _is_size(size: Numeric) -> Numeric:
 
 
 _ELLIPSE = "the orbit must be an ellipse: e is 0 or more, less than 1; a hyperbola is a position="
-#: Conditions on each element, besides being finite.
-_RULES: dict[str, tuple[Callable[[Numeric], Numeric], str]] = {
-    "a": (_is_size, f"it is greater than zero, and at most {_LARGEST:g} m"),
-    "period": (_is_size, f"it is greater than zero, and at most {_LARGEST:g} s"),
-    "e": (lambda e: (e >= 0) & (e < 1), _ELLIPSE),
-    "i": (lambda i: (i >= 0) & (i <= math.pi), "an inclination must be 0 to 180 deg"),
-    "node_period": (lambda p: p != 0, "a period is not zero; negative is backwards"),
-    "pericentre_period": (lambda p: p != 0, "a period is not zero; negative is backwards"),
-} | dict.fromkeys(
-    ("direction_error", "direction_drift", "distance_error", "distance_drift", "rate_error"),
-    (lambda size: (size >= 0) & (size <= _LARGEST), "a bound on an error is zero or more"),
+_INCLINATION = ("i", lambda i: (i >= 0) & (i <= math.pi), "an inclination must be 0 to 180 deg")
+_BOUNDS = ("direction_error", "direction_drift", "distance_error", "distance_drift", "rate_error")
+Orbit.KINDS = kinds_of(Orbit)
+Orbit.RULES = (
+    ("a", _is_size, f"it is greater than zero, and at most {_LARGEST:g} m"),
+    ("period", _is_size, f"it is greater than zero, and at most {_LARGEST:g} s"),
+    ("e", lambda e: (e >= 0) & (e < 1), _ELLIPSE),
+    _INCLINATION,
+    ("node_period", lambda p: p != 0, "a period is not zero; negative is backwards"),
+    ("pericentre_period", lambda p: p != 0, "a period is not zero; negative is backwards"),
+    *(
+        (name, lambda size: (size >= 0) & (size <= _LARGEST), "a bound on an error is zero or more")
+        for name in _BOUNDS
+    ),
 )
-
-
-def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
-    """Convert orbital elements to SI units, and refuse an element outside its allowed range.
-
-    Raises
-    ------
-    SceneError, UnitsError
-        Names the element.
-    """
-    read: dict[str, Any] = {}
-    for name, value in elements.items():
-        if value is None:
-            continue
-        # already in SI; skips loading the converters
-        plain = is_si(value, getattr(_KINDS[name], "unit", "")) and all_of(np.isfinite(value))
-        read[name] = (
-            value if plain and not where.typed else _KINDS[name].read(value, where.at(name))
-        )
-        if not (isinstance(read[name], (float, str)) or hasattr(read[name], "dims")):
-            problem = "an element is one number, or a DataArray with named dimensions"
-            raise where.at(name).error(value, problem)
-        if name in _RULES and not all_of(_RULES[name][0](read[name])):
-            raise where.at(name).error(value, _RULES[name][1])
-    if "a" not in read and "period" not in read:
-        raise where.error(None, _ONE_OF)
-    return read
+Orbit.__init__ = checked(Orbit.__init__)  # type: ignore[method-assign]
 
 
 # --- satellites -----------------------------------------------------------------------------------
@@ -265,57 +216,25 @@ class Satellite(Record):
 
     words: ClassVar[str] = 'a table like {name = "titan", gm = "8978 km3/s2", a = "1221865 km"}'
 
+    REQUIRED = ("name", "gm", "a")
+    UNWRITTEN = (0.0, "")
+
     def __post_init__(self) -> None:
-        where = Where(f"satellites.{self.name}")
-        for name, kind in _SATELLITE_KINDS.items():
-            value = kind.read(getattr(self, name), where.at(name))
-            if np.ndim(value) and not hasattr(value, "dims"):
-                raise where.at(name).error("an array", "give a number, or a DataArray")
-            object.__setattr__(self, name, value)
-        for name, holds, allowed in _SATELLITE_RULES:
-            if not all_of(holds(getattr(self, name))):
-                raise where.at(name).error(getattr(self, name), allowed)
-
-    @classmethod
-    def read(cls, value: object, where: Where) -> Satellite:
-        """Read a satellite: a `Satellite`, or a table of its numbers.
-
-        Raises
-        ------
-        SceneError, UnitsError
-            If a key is unknown or missing, or a number is impossible.
-        """
-        if isinstance(value, cls):
-            return value
-        if not isinstance(value, Mapping):
-            raise where.error(value, f"give {cls.words}")
-        where.refuse_unknown(value, _SATELLITE_KINDS)
-        for key in ("name", "gm", "a"):
-            if key not in value:
-                raise where.at(key).error(None, f"give {cls.words}")
-        kinds = _SATELLITE_KINDS
-        return cls(**{key: kinds[key].read(entry, where.at(key)) for key, entry in value.items()})
-
-    def write(self) -> Plain:
-        """Convert the satellite to a table of the numbers that are given, for scene files."""
-        values = {f.name: getattr(self, f.name) for f in fields(self)}
-        given = {n: v for n, v in values.items() if not (is_same(v, 0.0) or is_same(v, ""))}
-        return {n: _SATELLITE_KINDS[n].write(value) for n, value in given.items()}
+        vars(self).update(self.checked(vars(self), Where(f"satellites.{self.name}")))
 
 
 Satellite.__init__ = checked(Satellite.__init__)  # type: ignore[method-assign]
-_SATELLITE_KINDS = kinds_of(Satellite)
 #: Plausibility bound: above mass and size of the observable universe, SI.
 _LARGEST_SATELLITE = 1e60
 #: Smallest GM, that of a rock of 15 kg, m3 s-2.
 _LEAST = 1e-9
 _RANGE_OF_GM = f"it is {_LEAST:g} to {_LARGEST_SATELLITE:g} m3 s-2; leave out what has no mass"
 _RANGE_OF_A = f"it is greater than zero, and at most {_LARGEST_SATELLITE:g} m"
-#: Conditions on each number.
-_SATELLITE_RULES: tuple[tuple[str, Callable[[Numeric], Numeric], str], ...] = (
+Satellite.KINDS = kinds_of(Satellite)
+Satellite.RULES = (
     ("gm", lambda gm: (gm >= _LEAST) & (gm <= _LARGEST_SATELLITE), _RANGE_OF_GM),
     ("a", lambda a: (a > 0) & (a <= _LARGEST_SATELLITE), _RANGE_OF_A),
-    ("i", lambda i: (i >= 0) & (i <= math.pi), "an inclination must be 0 to 180 deg"),
+    _INCLINATION,
     ("gm_uncertainty", lambda u: u >= 0, "an uncertainty must be zero or more"),
 )
 

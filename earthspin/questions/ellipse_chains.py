@@ -4,20 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import fields
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from earthspin.bodies import BODIES, Body, checks, in_a_sentence, label_of, moons
-from earthspin.bodies.laplace_plane import laplace_plane
+from earthspin.bodies import BODIES, Body, Orbit, checks, in_a_sentence, label_of, moons
+from earthspin.bodies.laplace_plane import reference_plane
 from earthspin.errors import SceneError, UndefinedError, nearest
-from earthspin.sky.elements import Ellipse, Plane
+from earthspin.sky.elements import Ellipse
 from earthspin.torque.cassini import locked_turns
 
 #: Largest relative deviation of semi-major axis and period from Kepler's third law. The Sun makes
 #: the Moon's month 0.3 per cent longer than the law with its mean distance.
 THIRD_LAW = 0.01
+
+
+#: Elements that an ellipse has from the orbit of a body; those that are not given are zero.
+_SAME = Orbit.KINDS.keys() & {field.name for field in fields(Ellipse)} - {"a", "plane"}
 
 
 class EllipseChain(NamedTuple):
@@ -122,25 +127,14 @@ def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
     refuse_overlap(member, centre, a)
     node = 0.0 if orbit.node_period is None else 2 * math.pi / orbit.node_period
     turn = 0.0 if orbit.pericentre_period is None else 2 * math.pi / orbit.pericentre_period
-    plane = laplace_plane(
-        orbit, float(np.min(member.gm)), centre if centre.known_as in BODIES else None
-    )
+    planet = centre if centre.known_as in BODIES else None
     return Ellipse(
         a=a,
-        e=orbit.e,
-        i=orbit.i,
-        node=orbit.node,
-        pericentre=orbit.pericentre,
-        mean_anomaly=orbit.mean_anomaly,
-        epoch=orbit.epoch,
+        **{name: getattr(orbit, name) or 0.0 for name in _SAME},
         motion=motion - node - turn,
         node_rate=node,
         pericentre_rate=turn,
-        plane=plane or Plane.of(orbit.plane or "ecliptic", body.pole, body.orbit_pole),
-        direction_error=orbit.direction_error or 0.0,
-        direction_drift=orbit.direction_drift or 0.0,
-        distance_error=orbit.distance_error or 0.0,
-        distance_drift=orbit.distance_drift or 0.0,
+        plane=reference_plane(orbit, float(np.min(member.gm)), planet, body.pole, body.orbit_pole),
     )
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Protocol, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -106,6 +106,8 @@ class Direction(NamedTuple):
         ValueError
             If `pair` is not a pair of finite angles, or the declination is beyond a pole.
         """
+        if isinstance(pair, cls):
+            return pair
         if not isinstance(pair, tuple) or len(pair) != 2:
             raise ValueError(pair)
         ra, dec = pair
@@ -153,41 +155,22 @@ class OrbitNormal(Direction):
     """Normal of an orbit that follows from the elements of the orbit."""
 
 
-class PoleModel(Protocol):
-    """Protocol of a body's pole (spin axis).
+class PoleModel:
+    """Base class of a body's pole (spin axis).
 
     The argument `orbit` is the normal of the body's own orbit, if known.
     """
 
     #: Whether the axis follows the IAU models of precession and nutation of the Earth.
-    of_the_iau: bool
+    of_the_iau = False
 
-    def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Unit normal of the plane to which precession refers, shape (3,).
-
-        Raises
-        ------
-        UndefinedError
-            If there is no orbit.
-        """
-
-    def is_upright(self, orbit: Direction | None) -> bool:
-        """Return True if the spin axis is nearly normal to the orbit.
-
-        Its longitude is then undefined.
-        """
-
-    def orbit_axes(self, orbit: Direction | None) -> FloatArray:
-        """Matrix from the GCRS to the orbital plane and equinox of J2000.0, shape (3, 3)."""
+    def at_epoch(self) -> Direction:
+        """Direction of the spin axis at J2000.0."""
+        raise NotImplementedError
 
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the spin axis on given days, without IAU nutation, shape (n, 3)."""
-
-    def without_nutation(self) -> PoleModel:
-        """Return the pole without the periodic terms that count as nutation."""
-
-    def true(self, day: float) -> FloatArray:
-        """Unit vector of the spin axis on one day, nutation included, shape (3,)."""
+        raise NotImplementedError
 
     def equator(
         self,
@@ -202,21 +185,22 @@ class PoleModel(Protocol):
         orbit : Direction or None
         days : ndarray, shape (n,)
         nutation : NutationSpline, optional
-            If given, the true equator is returned, otherwise the mean equator.
+            If given, the true equator of the Earth is returned, otherwise the mean equator.
 
         Returns
         -------
         ndarray, shape (n, 3, 3), or (3, 3) for an axis that does not move
         """
-
-
-class FixedPole(Direction):
-    """Pole (spin axis) with a fixed direction in the ICRF."""
-
-    of_the_iau = False
+        raise NotImplementedError
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Unit normal of the body's orbit, the plane to which precession refers, shape (3,)."""
+        """Unit normal of the body's orbit, the plane to which precession refers, shape (3,).
+
+        Raises
+        ------
+        UndefinedError
+            If there is no orbit.
+        """
         if orbit is None:
             raise UndefinedError(
                 "the equinox of a body is the node of its orbit, which is not known; set its orbit "
@@ -225,31 +209,42 @@ class FixedPole(Direction):
         return orbit.vector()
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Return True if the spin axis is nearly parallel or opposite to the orbit's normal."""
+        """Return True if the spin axis is nearly parallel or opposite to the orbit's normal.
+
+        Its longitude is then undefined.
+        """
         if orbit is None:
             return False
-        (ra, dec), (ra0, dec0) = self, orbit
+        (ra, dec), (ra0, dec0) = self.at_epoch(), orbit
         half = math.sin((dec - dec0) / 2) ** 2
         half += math.cos(dec) * math.cos(dec0) * math.sin((ra - ra0) / 2) ** 2
         return min(half, 1 - half) < (UPRIGHT / 2) ** 2
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
-        """Matrix from the GCRS to the orbital plane, with the body's equinox as first axis."""
+        """Matrix from the GCRS to the orbital plane, with the equinox of J2000.0 as first axis."""
         normal = self.orbit_normal(orbit)
-        equinox = self.equator(orbit)[0]
+        equinox = fixed_equator(self.at_epoch().vector(), normal)[0]
         return np.stack([equinox, np.cross(normal, equinox), normal])
+
+    def without_nutation(self) -> Self:
+        """Return the pole without the periodic terms that count as nutation."""
+        return self
+
+    def true(self, day: float) -> FloatArray:
+        """Unit vector of the spin axis on one day, nutation included, shape (3,)."""
+        return np.asarray(self.mean(np.array([day]))[0])
+
+
+class FixedPole(Direction, PoleModel):
+    """Pole (spin axis) with a fixed direction in the ICRF."""
+
+    def at_epoch(self) -> Direction:
+        """Return the pole itself."""
+        return self
 
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the fixed spin axis on given days, shape (n, 3)."""
         return np.broadcast_to(self.vector(), (days.size, 3))
-
-    def without_nutation(self) -> Self:
-        """Return the pole itself, which has no nutation."""
-        return self
-
-    def true(self, day: float) -> FloatArray:
-        """Unit vector of the fixed spin axis, which has no nutation, shape (3,)."""
-        return self.vector()
 
     def equator(
         self,
@@ -301,7 +296,7 @@ def of_each(direction: Callable[..., Direction], *values: Any) -> Direction:
 
 
 @dataclass(frozen=True)
-class IAU2006Pole:
+class IAU2006Pole(PoleModel):
     """Pole of the Earth, with precession IAU 2006 and nutation IAU 2000A."""
 
     of_the_iau = True
@@ -324,10 +319,6 @@ class IAU2006Pole:
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the mean pole of date, frame bias included, shape (n, 3)."""
         return np.asarray(iau_models.mean_equator(days)[..., 2, :])
-
-    def without_nutation(self) -> Self:
-        """Return the pole itself; its mean direction has no nutation."""
-        return self
 
     def true(self, day: float) -> FloatArray:
         """Unit vector of the celestial intermediate pole on a day, bias included, shape (3,)."""
@@ -360,7 +351,7 @@ def pole_of(value: object) -> PoleModel:
         if value not in NAMED_POLES:
             raise ValueError(value)
         return NAMED_POLES[value]
-    return value if hasattr(value, "of_the_iau") else FixedPole.of(value)  # type: ignore[return-value]
+    return value if isinstance(value, PoleModel) else FixedPole.of(value)
 
 
 # --- moving poles as published by the IAU ---------------------------------------------------------
@@ -402,7 +393,7 @@ _SWINGS = ("right_ascension_swings", "declination_swings")
 
 
 @dataclass(frozen=True)
-class MovingPole:
+class MovingPole(PoleModel):
     """Pole (spin axis) that moves with constant rates and periodic terms.
 
     Attributes
@@ -420,8 +411,6 @@ class MovingPole:
     declination_rate: float = 0.0
     right_ascension_swings: tuple[PeriodicTerm, ...] = ()
     declination_swings: tuple[PeriodicTerm, ...] = ()
-
-    of_the_iau = False
 
     @classmethod
     def published(
@@ -459,6 +448,10 @@ class MovingPole:
     def __str__(self) -> str:
         return f"moving; at J2000.0 {Direction(*self.at(0.0))}"
 
+    def at_epoch(self) -> Direction:
+        """Direction of the pole at J2000.0, with periodic terms."""
+        return self.at(0.0)
+
     def at(self, day: float) -> FixedPole:
         """Direction of the pole on a given day from J2000.0 TDB, with periodic terms."""
         return FixedPole(*map(float, self._angles(day)))
@@ -473,21 +466,6 @@ class MovingPole:
         for size, phase, rate in self.declination_swings:
             dec = dec + size * np.cos(phase + rate * time)
         return ra, dec
-
-    def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Unit normal of the body's orbit, shape (3,)."""
-        return self.at(0.0).orbit_normal(orbit)
-
-    def is_upright(self, orbit: Direction | None) -> bool:
-        """Return True if the spin axis at J2000.0 is nearly normal to the orbit.
-
-        Its longitude is then undefined.
-        """
-        return self.at(0.0).is_upright(orbit)
-
-    def orbit_axes(self, orbit: Direction | None) -> FloatArray:
-        """Matrix from the GCRS to the orbital plane, with the equinox of J2000.0 as first axis."""
-        return self.at(0.0).orbit_axes(orbit)
 
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the spin axis on given days, shape (n, 3).
@@ -509,10 +487,6 @@ class MovingPole:
             right_ascension_swings=slow(self.right_ascension_swings),
             declination_swings=slow(self.declination_swings),
         )
-
-    def true(self, day: float) -> FloatArray:
-        """Unit vector of the spin axis on one day, all periodic terms included, shape (3,)."""
-        return np.asarray(self.mean(np.array([day]))[0])
 
     def equator(
         self,

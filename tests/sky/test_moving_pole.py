@@ -67,7 +67,7 @@ def test_an_upright_pole_that_moves_has_an_equator_still() -> None:
 
 
 def test_a_scene_keeps_it() -> None:
-    kind = PoleInText()
+    kind = PoleInText(pole_of)
     assert kind.read(kind.write(SLOW), Where("pole")) == SLOW
     body = MARS.replace(pole=SLOW)
     found = earthspin.torque_series(
