@@ -251,16 +251,6 @@ class _ModelAttribute(coord.Attribute):  # type: ignore[misc]
 PRINCIPAL, MEAN_EARTH = "principal", "mean-earth"
 
 
-class _AxesAttribute(coord.Attribute):  # type: ignore[misc]
-    """Frame attribute (astropy) for the name of the axes."""
-
-    def convert_input(self, value: Any) -> tuple[Any, bool]:
-        """Return the name if it is known; refuse any other value."""
-        if value not in (PRINCIPAL, MEAN_EARTH):
-            raise SceneError("axes", value, f"give '{PRINCIPAL}' or '{MEAN_EARTH}'")
-        return value, False
-
-
 class _Computed:
     """Base class of astropy frames with computed axes: rotation matrix, and error of the axes."""
 
@@ -374,8 +364,13 @@ class BodyFixed(_Computed, coord.BaseCoordinateFrame):  # type: ignore[misc]
     default_differential = coord.SphericalCosLatDifferential
     obstime = _DateAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
     model = _ModelAttribute(default=None)
-    axes = _AxesAttribute(default=PRINCIPAL)
+    axes = coord.Attribute(default=PRINCIPAL)
     _words = ("rotation",)
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        if self.axes not in (PRINCIPAL, MEAN_EARTH):
+            raise SceneError("axes", self.axes, f"give '{PRINCIPAL}' or '{MEAN_EARTH}'")
 
     def _matrix_and_error(self) -> tuple[FloatArray, FloatArray]:
         """Rotation matrices from the ICRS to the requested axes, and errors of axes, rad."""

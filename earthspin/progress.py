@@ -75,6 +75,34 @@ def progress(label: str, total: int | None = None, already: int = 0) -> Iterator
 
 
 @contextmanager
+def up_to(label: str, total: float) -> Iterator[Callable[[float], None]]:
+    """Show a progress bar for work that reports how far it is.
+
+    Parameters
+    ----------
+    label : str
+        Name of the work.
+    total : float
+        Amount of work.
+
+    Yields
+    ------
+    callable
+        To be called with the amount that is done.
+    """
+    whole, shown = round(total), 0
+    with progress(label, whole) as advance:
+
+        def report(reached: float) -> None:
+            nonlocal shown
+            now = min(max(round(reached), shown), whole)
+            advance(now - shown)
+            shown = now
+
+        yield report
+
+
+@contextmanager
 def lines_to(stream: TextIO) -> Iterator[None]:
     """Write the progress of all work to a stream, as lines of JSON, instead of showing a bar.
 

@@ -70,9 +70,7 @@ def rigid_bodies(
     names = (FLATTENING, TRIAXIALITY, TIDE, ROUNDING, START)
     changed = tuple(name for name in names if errors.get(name, 0.0) > 0.0)
     factor = {
-        name: np.array([1.0, *(1 + errors[name] if name == other else 1.0 for other in changed)])
-        if name in changed
-        else np.ones(1 + len(changed))
+        name: np.where([False, *(name == other for other in changed)], 1 + errors.get(name, 0), 1.0)
         for name in names
     }
     # J2 and (B - A)/(M a2) are divided by C/(M a2) = J2/H, so both differences scale with H.

@@ -86,7 +86,7 @@ class RateBudget:
         first order also the uncertainty of H. Those of the first order are those of the totals.
     psi_total, omega_total : float
         Computed rates.
-    psi_iau, omega_iau : float
+    psi_rate_iau, omega_rate_iau : float
         Rates of IAU 2006.
     closure, omega_closure : float
         Computed rate plus the published non-linear term, minus the IAU rate.
@@ -94,7 +94,7 @@ class RateBudget:
         Closure including the published effect of tides on the obliquity.
     psi_from_h : float
         Standard deviation of the rate of psi_A due to that of H.
-    psi_analysis_error, omega_analysis_error : float
+    psi_rate_analysis_error, omega_rate_analysis_error : float
         Error of the analysis, from applying it to the IAU pole.
     """
 
@@ -105,14 +105,14 @@ class RateBudget:
     omega_error: dict[str, float]
     psi_total: float
     omega_total: float
-    psi_iau: float
-    omega_iau: float
+    psi_rate_iau: float
+    omega_rate_iau: float
     closure: float
     omega_closure: float
     omega_closure_with_tides: float
     psi_from_h: float
-    psi_analysis_error: float
-    omega_analysis_error: float
+    psi_rate_analysis_error: float
+    omega_rate_analysis_error: float
 
 
 def budget_of(
@@ -161,14 +161,14 @@ def budget_of(
         omega_error=errors(omega, omega_deviation),
         psi_total=computed.psi_rate,
         omega_total=computed.omega_rate,
-        psi_iau=psi_iau,
-        omega_iau=omega_iau,
+        psi_rate_iau=psi_iau,
+        omega_rate_iau=omega_iau,
         closure=computed.psi_rate + published_effects()["nonrigid"] - psi_iau,
         omega_closure=computed.omega_rate - omega_iau,
         omega_closure_with_tides=computed.omega_rate + tides - omega_iau,
         psi_from_h=u_h * abs(psi[FIRST_ORDER]),
-        psi_analysis_error=psi_deviation,
-        omega_analysis_error=omega_deviation,
+        psi_rate_analysis_error=psi_deviation,
+        omega_rate_analysis_error=omega_deviation,
     )
 
 
@@ -219,7 +219,7 @@ def inferred_h(budget: RateBudget, h: float) -> tuple[float, float]:
     spread = math.sqrt(sum((budget.psi[e] - budget.psi_published[e]) ** 2 for e in compared))
     # all effects except geodesic precession are proportional to H
     proportional_rate = sum(rate for effect, rate in budget.psi.items() if effect != "geodesic")
-    uncertainty = abs(h / proportional_rate) * math.hypot(spread, budget.psi_analysis_error)
+    uncertainty = abs(h / proportional_rate) * math.hypot(spread, budget.psi_rate_analysis_error)
     return h * (1 - budget.closure / proportional_rate), uncertainty
 
 

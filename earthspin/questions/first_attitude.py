@@ -6,7 +6,7 @@ with their pole and prime meridian.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -51,7 +51,7 @@ class FirstState:
     omega: FloatArray
     source: str = ""
     turn_error: float = 0.0
-    rotation_error: FloatArray
+    rotation_error: FloatArray = field(default_factory=lambda: np.zeros(3))
     spin_error: float = 0.0
     libration: Libration | None = None
 
@@ -71,10 +71,10 @@ def first_state(
     source: SourceName,
 ) -> FirstState:
     """Attitude and angular velocity on a day from J2000.0 TDB; given ones are exact."""
-    spin_rate, exact = float(body.spin_rate), np.zeros(3)
+    spin_rate = float(body.spin_rate)
     uniform = np.array([0.0, 0.0, spin_rate]) if omega is None else omega
     if attitude is not None:
-        return FirstState(attitude=attitude, omega=uniform, rotation_error=exact)
+        return FirstState(attitude=attitude, omega=uniform)
     if omega is None and starts_from_librations(body):
         libration = moon_at(day, ephemeris, source)
         if libration is not None:
@@ -83,7 +83,6 @@ def first_state(
                 omega=libration.omega,
                 source=librations.SOURCE.source,
                 turn_error=librations.HALF_WIDTH,
-                rotation_error=exact,
                 libration=libration,
             )
     pole = body.needed("pole").true(day)
@@ -94,7 +93,6 @@ def first_state(
             omega=uniform,
             source=words,
             turn_error=turn_error,
-            rotation_error=exact,
         )
     rotation_error, spin_error = _start_errors(body, day)
     if omega is None:

@@ -161,23 +161,17 @@ class EffectRates(Variables, no_error="a measure of error itself"):
 def budget(rates_by_effect: RateBudget) -> EffectRates:
     """Collect contributions of effects to the precession rates, and differences from IAU 2006."""
     rates = rates_by_effect
-    uncertainty = math.hypot(rates.psi_from_h, rates.psi_analysis_error)
+    uncertainty = math.hypot(rates.psi_from_h, rates.psi_rate_analysis_error)
     return EffectRates(
         psi_rate=(list(rates.psi.values()), list(rates.psi_error.values())),
         psi_rate_published=list(rates.psi_published.values()),
         omega_rate=(list(rates.omega.values()), list(rates.omega_error.values())),
         psi_rate_total=(rates.psi_total, rates.psi_error[rate_budget.FIRST_ORDER]),
         omega_rate_total=(rates.omega_total, rates.omega_error[rate_budget.FIRST_ORDER]),
-        psi_rate_iau=rates.psi_iau,
-        omega_rate_iau=rates.omega_iau,
-        closure=rates.closure,
-        omega_closure=rates.omega_closure,
-        omega_closure_with_tides=rates.omega_closure_with_tides,
         closure_over_flattening=_ratio(rates.closure, rates.psi_from_h),
         closure_over_uncertainty=_ratio(rates.closure, uncertainty),
-        psi_rate_analysis_error=rates.psi_analysis_error,
-        omega_rate_analysis_error=rates.omega_analysis_error,
         effect=list(rates.psi),
+        **{name: getattr(rates, name) for name in EffectRates.fields if hasattr(rates, name)},
     )
 
 

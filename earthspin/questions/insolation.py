@@ -501,13 +501,11 @@ def _scales(result: xr.Dataset, solar_constant: float | None, mean: str) -> tupl
     sidereal = BODIES[body].orbital_period if body in BODIES else None
     timed = mean not in ("day", "year", "extremes", "all-extremes")
     if sidereal is None and (solar_constant is None or (body and timed)):
-        name, remedy = (
-            body or "the body of this solution",
-            "give mean = 'day', 'year' or 'extremes'",
-        )
-        if solar_constant is None:
-            remedy = "give solar_constant, like '1361 W/m2' for the Earth"
-        raise UndefinedError(f"{_CALL}: the year of {name} is not known; {remedy}")
+        remedy = "solar_constant, like '1361 W/m2' for the Earth"
+        if solar_constant is not None:
+            remedy = "mean = 'day', 'year' or 'extremes'"
+        name = body or "the body of this solution"
+        raise UndefinedError(f"{_CALL}: the year of {name} is not known; give {remedy}")
     year = CALENDAR_YEAR * DAY if sidereal is None else _year_of_seasons(body, sidereal)
     return solar_constant or _solar_constant(sidereal or year), year
 

@@ -16,7 +16,7 @@ from earthspin.motion.attitude_effects import ATTITUDE_EFFECTS
 from earthspin.motion.effects import RIGID
 from earthspin.motion.forces import Forces
 from earthspin.numerics import rotations
-from earthspin.progress import progress
+from earthspin.progress import up_to
 from earthspin.questions.effects_and_torques import attractors, forces_of
 from earthspin.questions.sky import places, sky
 from earthspin.sky.sources import SourceName
@@ -53,15 +53,8 @@ def moon_at(day: float, ephemeris: str, source: SourceName) -> Libration | None:
     pulls = solution.masses(forces, epoch)
     start = solution.start_of(body, row.attitude, row.omega, pulls)
     integrator = solution.AttitudeIntegrator(body, pulls, start, seconds, tolerance=_TOLERANCE)
-    shown = 0
-    with progress("librations of the Moon up to the first date", round(day - row.day)) as advance:
-
-        def report(reached: float) -> None:
-            nonlocal shown
-            advance(round(reached / DAY) - shown)
-            shown = round(reached / DAY)
-
-        series = integrator.at(np.array([seconds]), report)
+    with up_to("librations of the Moon up to the first date", day - row.day) as report:
+        series = integrator.at(np.array([seconds]), lambda reached: report(reached / DAY))
     assert body.core is not None
     attitude = series.attitude[0]
     momentum = (body.unit * series.core[0])[:, np.newaxis]

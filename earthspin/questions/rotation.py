@@ -28,7 +28,7 @@ from earthspin.motion.equations import FLATTENING, ROUNDING, START, TIDE, TRIAXI
 from earthspin.motion.forces import Forces
 from earthspin.motion.solution import COARSEST, KINDS, AttitudeIntegrator, RotationSeries, State
 from earthspin.numerics.arrays import FloatArray
-from earthspin.progress import progress
+from earthspin.progress import up_to
 from earthspin.questions import effects_and_torques, first_attitude
 from earthspin.questions.effects_and_torques import (
     Attractors,
@@ -118,9 +118,8 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     def rigid_effects(self) -> tuple[str, ...]:
         """Names of the effects on a rigid body, with those on its full attitude that are known."""
-        in_body = known_attitude_effects(self.body, self.perturbers)
-        rigid = (name for name in in_body if name not in (TIDES.name, FLUID_CORE.name))
-        return (*super().rigid_effects(), *rigid)
+        not_rigid = TIDES.name, FLUID_CORE.name
+        return tuple(name for name in self.known_effects() if name not in not_rigid)
 
     def known_effects(self) -> tuple[str, ...]:
         """Names of the effects that can be computed, with those of tides and of a fluid core."""
@@ -425,16 +424,9 @@ def _followed(
     motion: AttitudeIntegrator, rotor: Rotor, seconds: FloatArray, begin: float
 ) -> RotationSeries:
     """Integrate the rotation up to the given times (s), while a progress bar is shown."""
-    total, shown = round(rotor.turns(float(seconds[-1]) - begin)), 0
-    with progress("turns of the body", total) as advance:
-
-        def report(reached: float) -> None:
-            nonlocal shown
-            now = min(max(round(rotor.turns(reached - begin)), shown), total)
-            advance(now - shown)
-            shown = now
-
-        return motion.at(seconds, report)
+    total = rotor.turns(float(seconds[-1]) - begin)
+    with up_to("turns of the body", total) as report:
+        return motion.at(seconds, lambda reached: report(rotor.turns(reached - begin)))
 
 
 @part

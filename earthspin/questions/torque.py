@@ -112,6 +112,7 @@ def torques(
     principal = with_principal_pole(body)
     radec = sky.radec(principal, now, true=equator == "true", nutation=nutation)
     pole_error = start_error(body)
+    left_out = {"not_included": "uncertainty of the pole, not known"} if pole_error is None else {}
     errors = {}
     for name in names:
         angle, far = sky.error(sky.targets[name], epochs.span())
@@ -149,11 +150,7 @@ def torques(
         direction_error={
             "method": _equator_words(equator, nutation),
             "evaluations": epochs.size * len(names) + getattr(nutation, "evaluations", 0),
-            **(
-                {}
-                if pole_error is not None
-                else {"not_included": "uncertainty of the pole, not known"}
-            ),
+            **left_out,
         },
     )
 
@@ -204,6 +201,7 @@ def neglected(
     gm_over_r3 = sum(gm / r**3 for gm, r in points)
     sizes |= satellites.largest_torques_of_satellites(body, gm_over_r3)
     return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
+
 
 
 torque_series = public_call(

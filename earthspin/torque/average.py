@@ -114,27 +114,26 @@ class Window:
         return np.asarray(np.sum(self.weights(times[first:last]) * in_time, axis=-1))
 
 
-def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> Window:
+def best_window(start: float, end: float, cycle: float) -> Window:
     """Choose the time window whose mean converges fastest: a sin4 taper over whole cycles.
+
+    It is centred on J2000.0 if three cycles fit around it, otherwise on the middle of the span.
 
     Parameters
     ----------
     start, end : float
-        Time span of the data, s.
+        Time span of the data, s from J2000.0.
     cycle : float
         Period of the slowest cycle to remove, s.
-    epoch : float
-        Preferred centre, s; used if three cycles fit around it, otherwise the middle of the span.
 
     Raises
     ------
     UndefinedError
         If fewer than three cycles are available.
     """
-    room = 2 * min(epoch - start, end - epoch)
-    centre, room = (
-        (epoch, room) if room >= FEWEST_CYCLES * cycle else ((start + end) / 2, end - start)
-    )
+    centre, room = 0.0, 2 * min(-start, end)
+    if not room >= FEWEST_CYCLES * cycle:
+        centre, room = (start + end) / 2, end - start
     most_turns = max(FEWEST_CYCLES, math.floor(LONGEST_WINDOW / cycle))
     turns = min(math.floor(room / cycle), most_turns)
     if turns < FEWEST_CYCLES:

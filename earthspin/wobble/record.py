@@ -124,7 +124,7 @@ class WobbleFit:
 
 # --- amplitude and phase in sliding windows -------------------------------------------------------
 
-WINDOW_BLOCK = 30.0  # d
+WINDOW_BLOCK = WINDOW_STEP = 30.0  # d
 #: How far amplitudes scatter beyond the noise that is left in a window, from simulations: the
 #: fit takes some of it away.
 AMPLITUDE_EXCESS = 1.3
@@ -160,11 +160,7 @@ class Envelope:
 
 
 def envelope(
-    time: FloatArray,
-    p: ComplexArray,
-    period: float,
-    window: float | None = None,
-    step: float = 30.0,
+    time: FloatArray, p: ComplexArray, period: float, window: float | None = None
 ) -> Envelope:
     """Fit free wobble, annual wobble and linear drift of the pole in sliding time windows.
 
@@ -177,8 +173,6 @@ def envelope(
         Period of the free wobble, d.
     window : float, optional
         Length, d; one beat of the two wobbles by default, the shortest that parts them.
-    step : float
-        Between windows, d.
 
     Raises
     ------
@@ -203,7 +197,7 @@ def envelope(
     waves = [turning(offsets, term) * factor for term, factor in zip(periods, factors, strict=True)]
     columns = np.column_stack([np.ones(size), offsets / length, *waves])
     solver = np.linalg.pinv(columns)
-    starts = np.arange(0, time.size - size + 1, max(1, round(step / spacing)))
+    starts = np.arange(0, time.size - size + 1, max(1, round(WINDOW_STEP / spacing)))
     series = np.lib.stride_tricks.sliding_window_view(p, size)[starts]
     # Plain sums: a BLAS rounds otherwise with another number of threads.
     sizes = np.einsum("ws,ks->wk", series, solver)

@@ -145,7 +145,7 @@ def test_too_short() -> None:
 
     Hard because: two cycles do not show how large the error of the mean is
     """
-    best_window(0.0, 2.99 * 18.6 * JULIAN_YEAR, 18.6 * JULIAN_YEAR, 0.0)
+    best_window(0.0, 2.99 * 18.6 * JULIAN_YEAR, 18.6 * JULIAN_YEAR)
 
 
 @pytest.mark.slow

@@ -18,7 +18,7 @@ def rates(rate: float, excess: float, effects: float = 0.0, method: float = 0.0)
         psi={"first-order": rate - effects, "planets": effects},
         psi_published={"planets": 0.0},
         closure=excess,
-        psi_analysis_error=method,
+        psi_rate_analysis_error=method,
     )
 
 
