@@ -84,7 +84,8 @@ class Body(checks.Record, shapes.FromMass):
         Unnormalised Stokes coefficients of degree 3 and higher, by name, such as ``"c31"`` and
         ``"s31"``; they contain those of `j3` and `j4`, which are then not given.
     k2 : float
-        Love number of degree 2, for the tides on the body.
+        Love number of degree 2, for the tides on the body. Numbers that are not known are None, and
+        the effects that need them are left out.
     tidal_delay : float
         Delay of these tides, s.
     core_moment : float
@@ -175,17 +176,17 @@ class Body(checks.Record, shapes.FromMass):
     j2: Annotated[Numeric | None, Magnitude("", "1.08e-3", "(C - A)/(M a2)")] = None
     dynamical_flattening: Annotated[Numeric | None, Magnitude("", "3.27e-3", _H)] = None
     triaxiality: Annotated[Numeric, Magnitude("", "7.26e-6")] = 0.0
-    j3: Annotated[Numeric, Magnitude("", "-2.53e-6")] = 0.0
-    j4: Annotated[Numeric, Magnitude("", "-1.62e-6")] = 0.0
-    j2_rate: Annotated[Numeric, Magnitude("1/s", "-9.5e-19 1/s")] = 0.0
+    j3: Annotated[Numeric | None, Magnitude("", "-2.53e-6")] = None
+    j4: Annotated[Numeric | None, Magnitude("", "-1.62e-6")] = None
+    j2_rate: Annotated[Numeric | None, Magnitude("1/s", "-9.5e-19 1/s")] = None
     harmonics: Annotated[Mapping[str, float], kinds.StokesCoefficients()] = field(
         default_factory=dict
     )
-    k2: Annotated[Numeric, Magnitude("", "0.024")] = 0.0
-    tidal_delay: Annotated[Numeric, Magnitude("s", "0.1 d")] = 0.0
-    core_moment: Annotated[Numeric, Magnitude("", "7e-4")] = 0.0
-    core_flattening: Annotated[Numeric, Magnitude("", "2.5e-4")] = 0.0
-    core_friction: Annotated[Numeric, Magnitude("1/s", "1.9e-13 1/s")] = 0.0
+    k2: Annotated[Numeric | None, Magnitude("", "0.024")] = None
+    tidal_delay: Annotated[Numeric | None, Magnitude("s", "0.1 d")] = None
+    core_moment: Annotated[Numeric | None, Magnitude("", "7e-4")] = None
+    core_flattening: Annotated[Numeric | None, Magnitude("", "2.5e-4")] = None
+    core_friction: Annotated[Numeric | None, Magnitude("1/s", "1.9e-13 1/s")] = None
     prime_meridian: Annotated[float | None, Magnitude("rad", "329.6 deg")] = None
     prime_meridian_uncertainty: Annotated[float | None, Magnitude("rad", "0.1 deg")] = None
     long_axis: Annotated[float, Magnitude("rad", "75 deg")] = 0.0
@@ -238,9 +239,11 @@ class Body(checks.Record, shapes.FromMass):
         checks.check_labels(self.name, self.arrays)
         if isinstance(self.pole, TiltedPole):
             self._set(pole=self._pole_at(self.pole))
-        if self.harmonics and not all_of((self.j3 == 0) & (self.j4 == 0)):
-            allowed = "harmonics contains them, as c30 = -j3 and c40 = -j4; set j3 and j4 to 0"
-            raise BodyError(self.name, "j3, j4", f"{self.j3}, {self.j4}", allowed)
+        for name in ("j3", "j4") if self.harmonics else ():
+            value = getattr(self, name)
+            if value is not None and not all_of(value == 0):
+                allowed = "harmonics contains them, as c30 = -j3 and c40 = -j4; leave them out"
+                raise BodyError(self.name, name, value, allowed)
         if self.prime_meridian is not None and self.pole is not None and self.pole.of_the_iau:
             allowed = "the prime meridian of the pole iau2006 follows from UT1; set another pole"
             raise BodyError(self.name, "prime_meridian", self.prime_meridian, allowed)

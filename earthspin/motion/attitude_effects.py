@@ -46,7 +46,7 @@ def harmonics_torque(forces: Forces, windows: Windows, places: Places) -> BodyLa
 
 
 def _set_harmonics(forces: Forces, body: BodyNumbers) -> Forces:
-    if not body.harmonics or not forces.primary:
+    if not forces.primary:
         return forces
     figure = replace(forces.figure, harmonics=HarmonicsTorque(body.harmonics))
     return replace(forces, figure=figure, body_torques=(*forces.body_torques, harmonics_torque))
@@ -110,7 +110,7 @@ def _add_tides(forces: Forces, body: BodyNumbers) -> Forces:
     return replace(forces, inertia_changes=(*forces.inertia_changes, inertia))
 
 
-TIDES = register(ATTITUDE_EFFECTS, Effect("tides", _add_tides, "k2"))
+TIDES = register(ATTITUDE_EFFECTS, Effect("tides", _add_tides, "k2", ("tidal_delay",)))
 
 
 # --- fluid core -----------------------------------------------------------------------------------
@@ -133,7 +133,10 @@ def _add_core(forces: Forces, body: BodyNumbers) -> Forces:
     return replace(forces, core=core)
 
 
-FLUID_CORE = register(ATTITUDE_EFFECTS, Effect("fluid-core", _add_core, "core_moment"))
+FLUID_CORE = register(
+    ATTITUDE_EFFECTS,
+    Effect("fluid-core", _add_core, "core_moment", ("core_flattening", "core_friction")),
+)
 
 
 # --- flattening of the perturber ------------------------------------------------------------------

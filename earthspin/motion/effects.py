@@ -63,17 +63,26 @@ class Effect:
         forces with the effect.
     coefficient : str
         Field of the body to which the effect is proportional; empty if there is none.
+    further : tuple of str
+        Further fields of the body that the effect needs.
     """
 
     name: str
     switch_on: Callable[[Forces, BodyNumbers], Forces]
     coefficient: Coefficient | Literal["harmonics", ""] = ""
+    further: tuple[Coefficient, ...] = ()
+
+    def missing(self, body: BodyNumbers) -> list[str]:
+        """Return the names of the fields that the effect needs, and that are not known."""
+        needed = (self.coefficient, *self.further) if self.coefficient else ()
+        unknown = {"harmonics"} if not body.harmonics else set()
+        return [name for name in needed if name in unknown or getattr(body, name) is None]
 
     def is_idle(self, body: BodyNumbers) -> bool:
         """Return True if the coefficient of the effect is 0, or not known, for a body."""
-        if self.coefficient == "harmonics":
-            return not body.harmonics
-        return self.coefficient != "" and body.number(self.coefficient) == 0
+        if self.missing(body) or self.coefficient == "" or self.coefficient == "harmonics":
+            return bool(self.missing(body))
+        return body.number(self.coefficient) == 0
 
 
 class _Effects(dict[str, Effect]):

@@ -21,7 +21,7 @@ from earthspin.engine import key, part
 from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, one_line
 from earthspin.mass.figure import inverse_polar_moment
 from earthspin.motion.attitude_effects import ALL_EFFECTS, ATTITUDE_EFFECTS
-from earthspin.motion.effects import EFFECTS, GEODESIC, NONRIGID, PLANETS, RIGID
+from earthspin.motion.effects import EFFECTS, GEODESIC, NONRIGID, PLANETS, RIGID, Effect
 from earthspin.motion.forces import DynamicalFigure, Forces, Places, RateLaw, Torque
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows
@@ -88,6 +88,11 @@ class AxisMotion(DateSeries):
         names = (words[name]() if name in words else (name,) for name in self.effects)
         effects = tuple(dict.fromkeys(chain.from_iterable(names)))
         object.__setattr__(self, "effects", effects)
+        for name in effects:
+            if missing := ALL_EFFECTS[name].missing(self.body):
+                owner, fields = bodies.in_a_sentence(self.body.name), " and ".join(missing)
+                problem = f"{fields} of {owner} is not known; give it, or leave the effect out"
+                raise self.error("effects", name, problem)
         if PLANETS.name in effects and all_by_elements(self.body, self.perturbers):
             problem = "all orbits are given by elements, and this effect needs a kernel"
             remedy = "remove it, or list the planets as perturbers"
@@ -103,7 +108,8 @@ class AxisMotion(DateSeries):
         no_planets = all_by_elements(self.body, self.perturbers) or (
             kernel is not None and not kernel.holds(BODIES[name].naif for name in bodies.PLANETS)
         )
-        return tuple(name for name in RIGID if not (no_planets and name == PLANETS.name))
+        known = (name for name in RIGID if not EFFECTS[name].missing(self.body))
+        return tuple(name for name in known if not (no_planets and name == PLANETS.name))
 
 
 def kernel_file(ephemeris: str) -> Ephemeris | None:
@@ -304,7 +310,7 @@ def with_effects(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
     """Add the effects with the given names to the forces, and return the new forces."""
     chosen = [ALL_EFFECTS[name] for name in effects]
     for effect in ALL_EFFECTS.values():
-        if effect in chosen:
+        if effect in chosen and not effect.missing(body):
             forces = effect.switch_on(forces, body)
     return forces
 
@@ -322,13 +328,24 @@ def start_note(body: Body) -> dict[str, str]:
     return {"start": f"taken as exact; the uncertainty of the pole of {name} at J2000.0 {size}"}
 
 
-def inactive_effects_note(body: Body, effects: Sequence[str]) -> dict[str, str]:
-    """Attribute of a result that lists effects which do nothing because a coefficient is 0."""
-    acting = {name: ALL_EFFECTS[name] for name in effects}
-    idle = {name: effect.coefficient for name, effect in acting.items() if effect.is_idle(body)}
+def inactive_effects_note(
+    body: Body, effects: Sequence[str], of: Mapping[str, Effect] = EFFECTS
+) -> dict[str, str]:
+    """Attributes of a result: effects whose coefficient is 0, and effects `of` one not known."""
     owner = bodies.in_a_sentence(body.name)
-    words = ", ".join(f"{name} ({field} of {owner} is 0)" for name, field in idle.items())
-    return {"effects_that_do_nothing": words} if idle else {}
+    acting = {name: ALL_EFFECTS[name] for name in effects}
+    idle = [
+        f"{name} ({effect.coefficient} of {owner} is 0)"
+        for name, effect in acting.items()
+        if effect.is_idle(body)
+    ]
+    unknown = [
+        f"{name} ({', '.join(missing)} of {owner} is not known)"
+        for name, effect in of.items()
+        if (missing := effect.missing(body))
+    ]
+    notes = {"effects_that_do_nothing": idle, "effects_left_out": unknown}
+    return {note: ", ".join(words) for note, words in notes.items() if words}
 
 
 #: Parts that compute `attractors` and `epochs`, for questions that use them.

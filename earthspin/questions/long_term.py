@@ -14,7 +14,7 @@ from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import YearList, YearSpan, YearStep, grid
 from earthspin.engine import Neglected, Variables, key, labels, measured, number, part, public_call
 from earthspin.errors import UndefinedError, Where
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import FloatArray, Numeric
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
 from earthspin.questions.labelled_numbers import LabelledNumbers
 from earthspin.questions.reasons import no_iau_model, north_note, not_sun_and_moon
@@ -249,6 +249,7 @@ def inputs(
 ) -> LabelledNumbers:
     """Broadcast the inputs of the long-term precession (numbers or arrays) to one shape."""
     (rate, error), j2 = mean_rates.total(), body.needed("j2")
+    own_rate: Numeric = (0.0 if body.j2_rate is None else body.j2_rate) / (j2 + (j2 == 0))
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return LabelledNumbers.broadcast(
         **{
@@ -260,7 +261,7 @@ def inputs(
         spin_rate=body.spin_rate,
         tides=tides,
         ellipticity=ellipticity,
-        j2_rate=body.j2_rate / (j2 + (j2 == 0)) if j2_rate is None else j2_rate,
+        j2_rate=own_rate if j2_rate is None else j2_rate,
         obliquity_shift=obliquity_shift,
         longitude_shift=longitude_shift,
     )

@@ -474,7 +474,7 @@ def attitudes(
             # the number that a whole series takes is not known from one block of it
             **({"evaluations": motion.evaluations} if block is None else {}),
             **({} if start_attitude is not None else first_attitude.start_note(body, rotor.first)),
-            **effects_and_torques.inactive_effects_note(body, effects),
+            **effects_and_torques.inactive_effects_note(body, effects, ALL_EFFECTS),
         },
         omega_error=comment,
         angular_momentum_error=comment,

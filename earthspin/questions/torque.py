@@ -194,14 +194,16 @@ def neglected(
     if nearest is None:
         return Neglected(what="effects whose sizes are given for one body at a time")
     points = [(p.gm_on(body), nearest[p.name]) for p in perturbers]
-    figure = {3: float(body.j3), 4: float(body.j4)}
+    zonal = {"j3": body.j3, "j4": body.j4}
+    figure = {int(name[1]): float(j_n) for name, j_n in zonal.items() if j_n is not None}
+    unknown = ", ".join(name for name, j_n in zonal.items() if j_n is None)
     sizes = largest_torque_on_figure(
         points, float(body.mass), float(body.needed("radius")), figure, float(body.triaxiality)
     )
     gm_over_r3 = sum(gm / r**3 for gm, r in points)
     sizes |= satellites.largest_torques_of_satellites(body, gm_over_r3)
-    return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
-
+    what = "largest torque that the model leaves out"
+    return Neglected(sizes, "N m", what, body.reference, unknown=unknown)
 
 
 torque_series = public_call(

@@ -13,6 +13,7 @@ import earthspin
 from earthspin import MARS, SUN
 from earthspin.bodies import EARTH
 from earthspin.constants import DAY
+from earthspin.errors import Where
 from earthspin.motion.axes import axis_path
 from earthspin.motion.effects import geodesic_rate, geodesic_torque
 from earthspin.numerics.polynomials import Windows
@@ -125,6 +126,32 @@ def test_rate_of_j2_scales_the_torque(de421: Ephemeris) -> None:
     assert set(GM) == set(CODES)
 
 
+def test_an_effect_whose_number_is_not_known_is_left_out_with_its_reason() -> None:
+    """No J4 of Mars, Love number of the Earth or core of Mars is among their numbers."""
+    span = "2000-01-02", "2000-01-03", "12 h"
+    mars = earthspin.pole(*span, body="mars")
+    left_out = mars.direction_error.effects_left_out
+    assert left_out.startswith("j3 (j3 of Mars is not known), j4 (j4 of Mars is not known)")
+    assert "j4" not in mars.attrs["effects"]
+    earth = earthspin.rotation(*span).attitude_error.effects_left_out
+    assert "tides (k2, tidal_delay of the Earth is not known)" in earth
+    for call, keys, words in (
+        (earthspin.pole, {"body": "mars", "effects": ["j4"]}, "effects = 'j4': j4 of Mars"),
+        (earthspin.rotation, {"effects": ["tides"]}, "'tides': k2 and tidal_delay of the Earth"),
+        (earthspin.rotation, {"effects": ["harmonics"]}, "'harmonics': harmonics of the Earth"),
+        (
+            earthspin.rotation,
+            {"body": MARS.replace(core_moment=0.1), "effects": ["fluid-core"]},
+            "core_flattening and core_friction of Mars",
+        ),
+    ):
+        with pytest.raises(earthspin.SceneError, match=words):
+            call(*span, **keys)  # type: ignore[arg-type]
+    # a table of an earlier version holds zeros, which are numbers
+    earlier = earthspin.Body.read(MARS.write() | {"k2": 0.0, "j3": 0.0}, Where("body"))
+    assert (earlier.k2, earlier.j3, earlier.j4) == (0.0, 0.0, None)
+
+
 @pytest.mark.parametrize("call", [earthspin.pole, earthspin.rotation])
 def test_an_effect_without_its_coefficient_says_that_it_does_nothing(call: Any) -> None:
     def note(**keys: Any) -> str:
@@ -132,7 +159,7 @@ def test_an_effect_without_its_coefficient_says_that_it_does_nothing(call: Any) 
         errors = [v for name, v in answer.variables.items() if str(name).endswith("_error")]
         return " ".join(str(v.attrs.get("effects_that_do_nothing", "")) for v in errors).strip()
 
-    assert note(body="mars", effects=["j3"]) == "j3 (j3 of Mars is 0)"
+    assert note(body=MARS.replace(j3=0.0), effects=["j3"]) == "j3 (j3 of Mars is 0)"
     assert note(body=MARS.replace(j3=3e-5), effects=["j3"]) == ""
     assert note(effects=["j3", "j4", "triaxiality", "j2-rate"]) == ""
     assert note(body=EARTH.replace(triaxiality=0), effects=["triaxiality", "j3"]) == (

@@ -62,7 +62,7 @@ def test_mars_without_effects_is_off_by_what_is_listed() -> None:
     """27 mas after ten years, nearly all of it geodesic precession, with an error of 0.017."""
     sizes = told("pole", TEN_YEARS, body="mars", effects=[])
     answer = earthspin.pole(*TEN_YEARS, body="mars", effects=[])
-    whole = figure_axis(TEN_YEARS, body="mars", effects=RIGID)
+    whole = figure_axis(TEN_YEARS, body="mars", effects="rigid")
     off = np.linalg.norm(figure_axis(TEN_YEARS, body="mars", effects=[]) - whole, axis=1)[-1] / MAS
     assert off > 100 * 1e3 * float(answer.direction_error_method[-1])
     assert float(sizes.sel(effect="geodesic")) == pytest.approx(off, rel=0.1, abs=0)

@@ -94,7 +94,7 @@ def test_the_word_rigid_fits_bodies_on_given_orbits() -> None:
     """The orbit of Saturn is given by elements, which place no planets."""
     saturn = on_its_orbit(BODIES["saturn"])
     result = earthspin.pole(times=["2010-01-01"], body=saturn, effects="rigid")
-    assert result.attrs["effects"].split() == list(RIGID[1:])
+    assert result.attrs["effects"].split() == ["triaxiality", "geodesic", "second-order"]
     with pytest.raises(earthspin.SceneError, match="needs a kernel"):
         earthspin.pole(times=["2010-01-01"], body=saturn, effects=["planets"])
 
