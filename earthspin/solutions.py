@@ -184,7 +184,7 @@ def _converted(
         name = column.quantity.replace("perigee", "perihelion")
         if not name:
             continue
-        data[name] = sheet.converted(place, column, QUANTITIES[name].units, rows)
+        data[name] = sheet.values(meaning, column.quantity, QUANTITIES[name].units, rows)
         data[name] = data[name] - 180.0 * (name != column.quantity)
         rest = [*meaning[:place], BLANK, *meaning[place + 1 :]]
         remedy = f"fill it, leave out the row, or the column: {tables.typed(rest)}"
@@ -204,8 +204,16 @@ def _known(body: str) -> dict[str, FloatArray]:
     return {name: past[name].values for name in ("epoch", *BOUNDS)}
 
 
-def _misfit(sheet: Sheet, meaning: Sequence[Meaning], bodies: Sequence[str] = KNOWN) -> float:
-    """Largest median difference from a known body in units of its bound; inf if none is known."""
+def _misfit(
+    sheet: Sheet,
+    meaning: Sequence[Meaning],
+    bodies: Sequence[str] = KNOWN,
+    changing: bool = False,
+) -> float:
+    """Largest median difference from a known body in units of its bound; inf if none is known.
+
+    It is also inf if columns must change, since constants fit times in any unit, and none does.
+    """
     try:
         place = [column.quantity for column in meaning].index("epoch")
         factor, origin = meaning[place].conversion("yr")
@@ -217,6 +225,8 @@ def _misfit(sheet: Sheet, meaning: Sequence[Meaning], bodies: Sequence[str] = KN
         return math.inf
     names = [name for name in BOUNDS if name in data]
     if np.count_nonzero(near) < max(1, min(FEWEST, near.size)) or not names:
+        return math.inf
+    if changing and not any(np.ptp(data[name]) > 0.1 * BOUNDS[name] for name in names):
         return math.inf
 
     def misfit(body: str, name: str) -> float:
@@ -253,16 +263,9 @@ def _others(sheet: Sheet, meaning: Sequence[Meaning]) -> Iterator[list[Meaning]]
     blank = [BLANK if column.quantity in compared else column for column in meaning]
     time = names.index("epoch")
     for share, other in _guesses(sheet, blank, places, time):
-        if share == 1 and (other[time] == meaning[time] or _changes(sheet, other, time)):
+        changing = other[time] != meaning[time]
+        if share == 1 and math.isfinite(_misfit(sheet, other, changing=changing)):
             yield other
-
-
-def _changes(sheet: Sheet, meaning: Sequence[Meaning], time: int) -> bool:
-    """Return True if a column changes near J2000.0: constants fit times in any unit."""
-    factor, origin = meaning[time].conversion("yr")
-    near = abs(factor * sheet.column(time) + origin) <= NEAR
-    data = _converted(sheet, meaning, near)
-    return any(np.ptp(data[name]) > 0.1 * BOUNDS[name] for name in BOUNDS if name in data)
 
 
 def _suggested(sheet: Sheet) -> list[Meaning]:

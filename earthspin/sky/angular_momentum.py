@@ -193,19 +193,16 @@ def _rows(files: list[Path], place_of_file: int, columns: str | None) -> Array:
     """Rows of one file."""
     sheet = tables.split(files[place_of_file])
     sheet.refuse_text()
-    meaning = _meaning(sheet, columns)
+    meaning = [column._replace(unit=column.unit or "rad") for column in _meaning(sheet, columns)]
     mjd = tables.dates_of(sheet, meaning)
     problem = "MJD {mjd:.3f} comes after {last:.3f}"
     backwards = np.diff(mjd, prepend=-np.inf) < 0
     sheet.refuse(backwards, problem, "time runs backwards", mjd=mjd, last=np.roll(mjd, 1))
-    places = {column.quantity: place for place, column in enumerate(meaning)}
     rows = np.zeros(mjd.size, _ROW)
     rows["file"], rows["line"], rows["mjd"] = place_of_file, sheet.lines, mjd
     for name in TERMS:
-        chi = np.zeros(mjd.size, dtype=complex)
-        for axis, factor in (("1", 1.0), ("2", 1j)):
-            if (place := places.get(name + axis)) is not None:
-                chi += factor * sheet.converted(place, meaning[place]._replace(unit="rad"), "rad")
+        chi1, chi2 = (sheet.values(meaning, name + axis, "rad", missing=0.0) for axis in "12")
+        chi = chi1 + 1j * chi2
         problem = "excitation {chi:.3g} is no such number"
         sheet.refuse(~(abs(chi) <= LARGEST), problem, "give radians", chi=chi)
         rows[name] = chi

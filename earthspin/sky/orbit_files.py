@@ -33,7 +33,7 @@ from earthspin.errors import SeriesError, Where, nearest, no_plain_file
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.orbit_table import OrbitTable, fitted, load, shipped
 from earthspin.sky.poles import direction
-from earthspin.tables import Meaning, Sheet
+from earthspin.tables import BLANK, Meaning, Sheet
 from earthspin.tables.layouts import ORBITS
 from earthspin.units import real_numbers, time_scale
 
@@ -44,19 +44,19 @@ if TYPE_CHECKING:
 #: Units of time, s, and of angles, rad.
 TIMES = {"d": DAY, "yr": JULIAN_YEAR, "kyr": 1000 * JULIAN_YEAR}
 ANGLES = {"deg": math.pi / 180, "rad": 1.0}
-#: Accepted names of columns, by the name used here.
+#: Accepted names of columns, by the name used here and in declarations.
 NAMES: dict[str, tuple[str, ...]] = {
     "t": ("t", "time"),
     "e": ("e", "ee", "ecc", "eccentricity"),
     "inc": ("inc", "i", "incl", "inclination"),
     "varpi": ("varpi", "lph", "pomega", "longitude_of_perihelion"),
-    "argument": ("omega", "arp", "argp", "argument", "argument_of_perihelion"),
-    "node": ("Omega", "lan", "node", "longitude_of_node"),
+    "omega": ("omega", "arp", "argp", "argument", "argument_of_perihelion"),
+    "Omega": ("Omega", "lan", "node", "longitude_of_node"),
     "k": ("k",), "h": ("h",), "q": ("q",), "p": ("p",),
 }  # fmt: skip
 LA2010 = ("t", "k", "h", "q", "p")
 #: Columns that are angles, without which elements cannot be read.
-_ANGLES = ("inc", "varpi", "argument", "node")
+_ANGLES = ("inc", "varpi", "omega", "Omega")
 #: Quantities by words in headers, for messages only.
 _WORDS = {
     r"^t$|time|year|date|epoch": "t", r"^e$|ecc": "e", r"^i$|inc": "inc",
@@ -218,43 +218,42 @@ def _meaning(
     layouts = [x for x in ORBITS if tables.fits(x.columns, sheet.width)]
     layout = sheet.layout if sheet.layout in layouts else None
     if text is not None:
-        meaning = sheet.as_declared(text)
+        columns = sheet.as_declared(text)
     elif sheet.names and not layout:
-        meaning = [tables.column_of(name) for name in sheet.names]
+        columns = [tables.column_of(name) for name in sheet.names]
     else:
         layout = layout or next((x for x in layouts if not x.head), None)
         if layout is None:
             problem = f"{sheet.width} columns without names are no known layout"
             raise sheet.error(problem, "name them, like columns='t (yr), k, h, q, p'")
-        meaning = tables.declared(layout.columns)
-    places = _chosen(sheet, meaning)
+        columns = tables.declared(layout.columns)
+    places = _chosen(sheet, columns)
     units = {"t": time or "", **dict.fromkeys(_ANGLES, angles or "")}
+    meaning = [BLANK] * sheet.width
     for name, place in places.items():
-        unit = meaning[place].unit
-        if known := units.get(name):
-            same = unit in ("", known) or (name == "t" and time_scale(unit) == time_scale(known))
-            if not same and not (name == "t" and layout):
-                key = "time" if name == "t" else "angles"
-                problem = f"its header has '{meaning[place]}'"
-                raise sheet.error(problem, f"leave out {key} = {known!r}")
-            meaning[place] = meaning[place]._replace(unit=known)
-    time_unit = meaning[places["t"]].unit or ("kyr" if "k" in places else "d")
-    meaning[places["t"]] = Meaning("t", time_unit)
-    named = bool(text or sheet.names or (layout and layout.head))
-    return meaning, named
+        unit, known = columns[place].unit, units.get(name)
+        same = unit in ("", known) or (known and time_scale(unit) == time_scale(known))
+        if known and not same and not (name == "t" and layout):
+            key = "time" if name == "t" else "angles"
+            problem = f"its header has '{columns[place]}'"
+            raise sheet.error(problem, f"leave out {key} = {known!r}")
+        meaning[place] = Meaning(name, known or unit)
+    if not meaning[places["t"]].unit:
+        meaning[places["t"]] = Meaning("t", "kyr" if "k" in places else "d")
+    return meaning, bool(text or sheet.names or (layout and layout.head))
 
 
-def _chosen(sheet: Sheet, meaning: Sequence[Meaning]) -> dict[str, int]:
+def _chosen(sheet: Sheet, columns: Sequence[Meaning]) -> dict[str, int]:
     """Return the column index of each orbital element, found by the column names."""
-    names = [column.quantity for column in meaning]
+    names = [column.quantity for column in columns]
     places = tables.places(sheet.file, names, NAMES)
-    if places.get("node") == places.get("argument") and "node" in places:
-        del places["argument"]
+    if places.get("Omega") == places.get("omega") and "Omega" in places:
+        del places["omega"]
     if set(LA2010) <= set(places):
         return {name: places[name] for name in LA2010}
-    perihelion = next((name for name in ("varpi", "argument") if name in places), "varpi")
-    required = ("t", "e", "inc", perihelion, "node")
-    missing = [NAMES[name][0] for name in required if name not in places]
+    perihelion = next((name for name in ("varpi", "omega") if name in places), "varpi")
+    required = ("t", "e", "inc", perihelion, "Omega")
+    missing = [name for name in required if name not in places]
     if missing:
         problem = f"no column {' and none '.join(missing)} among {', '.join(names[:12])}"
         key = tables.typed([_by_words(name) for name in names])
@@ -315,7 +314,7 @@ def _others(meaning: list[Meaning]) -> Iterator[list[Meaning]]:
         for angles in ({}, {"deg": "rad", "rad": "deg"}):
             turned = tables.with_words(meaning, angles)
             inclined = [
-                new if new.quantity in NAMES["inc"] else old
+                new if new.quantity == "inc" else old
                 for old, new in zip(meaning, turned, strict=True)
             ]
             for time, columns in itertools.product(units, (turned, inclined)):
@@ -378,22 +377,21 @@ class _Rows:
     @classmethod
     def of_sheet(cls, sheet: Sheet, columns: Sequence[Meaning]) -> _Rows:
         """Read the columns of orbital elements from a table."""
-        places, meaning = _chosen(sheet, columns), [*columns]
-        data = {name: sheet.column(place) for name, place in places.items()}
+        data = {c.quantity: sheet.column(place) for place, c in enumerate(columns) if c.quantity}
         for name, column in data.items():
             problem, remedy = f"{name} is not a number", "fill it, or leave out rows"
             sheet.refuse(~np.isfinite(column), problem, remedy)
-        angles = {name: place for name, place in places.items() if name in _ANGLES}
+        units = {column.quantity: column.unit for column in columns}
+        angles = data.keys() & {*_ANGLES}
         if angles:
-            unit = _unit_of_angles(sheet, data, meaning[angles["node"]].unit)
-            for place in angles.values():
-                meaning[place] = meaning[place]._replace(unit=meaning[place].unit or unit)
-        data |= {name: sheet.converted(p, meaning[p], "rad") for name, p in angles.items()}
-        time = meaning[places["t"]]
-        if time.unit in TIMES:
-            return cls(sheet, meaning, data, time.unit)
-        data["t"] = sheet.converted(places["t"], time, "yr")
-        return cls(sheet, meaning, data, "yr")
+            unit = _unit_of_angles(sheet, data, units["Omega"])
+            columns = [
+                c._replace(unit=c.unit or unit) if c.quantity in angles else c for c in columns
+            ]
+        data |= {name: sheet.values(columns, name, "rad") for name in angles}
+        if units["t"] in TIMES:
+            return cls(sheet, [*columns], data, units["t"])
+        return cls(sheet, [*columns], data | {"t": sheet.values(columns, "t", "yr")}, "yr")
 
     @property
     def times(self) -> FloatArray:
@@ -477,12 +475,10 @@ def _from_elements(rows: _Rows) -> tuple[FloatArray, FloatArray]:
     """Unit normals and eccentricity vectors from Keplerian elements, shape (n, 3) each."""
     e = rows.columns["e"]
     _check_eccentricity(rows.sheet, e)
-    tilt, node = rows.columns["inc"], rows.columns["node"]
+    tilt, node = rows.columns["inc"], rows.columns["Omega"]
     outside = (tilt < 0) | (tilt > math.pi)
     rows.sheet.refuse(outside, "an inclination lies between 0 and 180 degrees")
-    argument = (
-        rows.columns["argument"] if "argument" in rows.columns else rows.columns["varpi"] - node
-    )
+    argument = rows.columns["omega"] if "omega" in rows.columns else rows.columns["varpi"] - node
     ci, si, cn, sn = np.cos(tilt), np.sin(tilt), np.cos(node), np.sin(node)
     cw, sw = np.cos(argument), np.sin(argument)
     normal = np.stack([si * sn, -si * cn, ci], axis=1)

@@ -109,7 +109,7 @@ def _by_names(sheet: Sheet, kind: str | None) -> PoleColumns | None:
     if not (dated and {"x", "y", "dx", "dy"} & {*places}):
         return None
     columns = [Meaning("type") if "type" in n.lower() else BLANK for n in sheet.names]
-    final = any("final" in row for row in sheet.rows)
+    final = any("final" in column for column in sheet.cells)
     for quantity, place in places.items():
         unit = "mas" if final and quantity in ("dx", "dy", "e_dx", "e_dy") else "arcsec"
         columns[place] = Meaning(quantity, tables.column_of(sheet.names[place]).unit or unit)
@@ -131,7 +131,7 @@ def _without_header(sheet: Sheet, kind: str | None) -> Sequence[published.TableL
         return (published.C01_BY_MJD, *published.C01_BY_YEAR)
     if sheet.names or kind:
         return ()
-    first = sheet.rows[0][0]
+    first = sheet.cells[0][0]
     if not (tables.is_number(first) and 1800 <= float(first.replace(",", ".")) <= 2200):
         return (published.C01_BY_MJD,)
     return published.C01_BY_YEAR if "." in first else published.C04
@@ -173,20 +173,20 @@ def observed(sheet: Sheet, table: PoleColumns, pair: Coordinates, predicted: boo
         raise sheet.error(problem, by_year if table.name == "c01" else AS_PANDAS)
     flags = [place for place, name in enumerate(names) if name == "type"]
     flag = flags[pair.flag % len(flags)] if flags else None
-    if flag is not None and any(row[flag].strip() for row in sheet.rows):
+    if flag is not None and any(map(str.strip, sheet.cells[flag])):
         kept = ("P", "p") if predicted else ("I", "f", "O")  # "P", "prediction"; "I", "final"
-        sheet = sheet.only([row[flag].startswith(kept) for row in sheet.rows])
-    both = names.index(x), names.index(y)  # dates without values are no rows
-    sheet = sheet.only([any(row[place].strip() for place in both) for row in sheet.rows])
+        sheet = sheet.only(cell.startswith(kept) for cell in sheet.cells[flag])
+    both = zip(sheet.cells[names.index(x)], sheet.cells[names.index(y)], strict=True)
+    sheet = sheet.only(any(map(str.strip, pair)) for pair in both)  # dates alone are no rows
     if sheet.layout and sheet.layout.edges:
         error = names.index(f"e_{y}")
         begin, end = sheet.layout.edges[error]
-        short = [len(row[error]) < end - begin for row in sheet.rows]
+        short = [len(cell) < end - begin for cell in sheet.cells[error]]
         if any(short):
             raise sheet.error("it ends early", "is the file cut off?", short.index(True))
     if table.name == "EOP2":
         late = tables.dates_of(sheet, table.columns) > _last_observed(sheet, pair)
-        sheet = sheet.only((~late).tolist())
+        sheet = sheet.only(~late)
     return sheet
 
 
@@ -203,15 +203,9 @@ def _last_observed(sheet: Sheet, pair: Coordinates) -> float:
 
 def rows_of(sheet: Sheet, table: PoleColumns, pair: Coordinates) -> FloatArray:
     """Rows of a table, (n, 6): line, MJD, x, y, x_error, y_error (arcsec)."""
-    places = {column.quantity: place for place, column in enumerate(table.columns)}
     x, y = pair.words.lower().split(", ")
-    missing = np.full(len(sheet.rows), np.nan)
-    values = [
-        sheet.converted(places[name], table.columns[places[name]], "arcsec")
-        if name in places
-        else missing
-        for name in (x, y, f"e_{x}", f"e_{y}")
-    ]
+    names = (x, y, f"e_{x}", f"e_{y}")
+    values = [sheet.values(table.columns, name, "arcsec") for name in names]
     mjd = tables.dates_of(sheet, table.columns)
     return np.array([np.array(sheet.lines, dtype=float), mjd, *values]).T
 
@@ -263,10 +257,9 @@ def _misfit(sheet: Sheet, mjd: FloatArray, columns: Sequence[Meaning], known: Fl
     if np.count_nonzero(common) < FEWEST:
         return math.nan
     off = [
-        sheet.converted(place, column, "arcsec")[common]
-        - np.interp(mjd[common], known[0], known["xy".index(column.quantity) + 1])
-        for place, column in enumerate(columns)
-        if column.quantity in ("x", "y")
+        sheet.values(columns, name, "arcsec", common) - np.interp(mjd[common], known[0], values)
+        for name, values in zip("xy", known[1:], strict=True)
+        if name in {column.quantity for column in columns}
     ]
     return float(np.nanmedian(np.hypot.reduce(off))) / SAME_POLE if off else math.nan
 

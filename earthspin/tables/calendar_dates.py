@@ -6,6 +6,7 @@ import datetime
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from earthspin.numerics.arrays import FloatArray
 from earthspin.tables.columns import Meaning
@@ -17,8 +18,7 @@ DATES: dict[str, tuple[str, ...]] = {
     "hour": ("hour", "hr", "hh"), "mjd": ("mjd", "modified_julian_date"),
     "jd": ("jd", "julian_date"), "date": ("date", "time", "epoch", "datetime"),
 }  # fmt: skip
-#: Proleptic day number of the modified Julian date 0, 1858 November 17, and the same as a date.
-_FIRST_DAY = datetime.date(1858, 11, 17).toordinal()
+#: Date of the modified Julian date 0.
 MJD_0 = np.datetime64("1858-11-17")
 _MJD_OF_JD0 = 2400000.5
 #: Tolerance between a modified Julian date and the calendar date in its row, for rounding, d.
@@ -35,8 +35,8 @@ def dates_of(sheet: Sheet, columns: Sequence[Meaning]) -> FloatArray:
     SeriesError
         If there is no date, or if two dates in a row differ.
     """
-    cells = {c.quantity: place for place, c in enumerate(columns) if c.quantity in DATES}
-    values = {name: sheet.column(place) for name, place in cells.items() if name != "date"}
+    places = {c.quantity: place for place, c in enumerate(columns) if c.quantity in DATES}
+    values = {name: sheet.column(place) for name, place in places.items() if name != "date"}
     if "jd" in values:
         values.setdefault("mjd", values["jd"] - _MJD_OF_JD0)
     if {"year", "month", "day"} <= {*values}:
@@ -45,8 +45,8 @@ def dates_of(sheet: Sheet, columns: Sequence[Meaning]) -> FloatArray:
         return values["mjd"]
     if "year" in values:
         return _from_besselian_years(sheet, values["year"])
-    if "date" in cells:
-        return _from_text(sheet, cells["date"])
+    if "date" in places:
+        return _from_text(sheet, sheet.cells[places["date"]])
     raise sheet.error("it has no column of dates", f"name one of {', '.join(DATES)}")
 
 
@@ -60,12 +60,12 @@ def _from_calendar(sheet: Sheet, values: dict[str, FloatArray]) -> FloatArray:
     days = []
     for row, date in enumerate(zip(year, values["month"], values["day"], strict=True)):
         try:
-            days.append(datetime.date(*map(int, date)).toordinal() - _FIRST_DAY)
+            days.append(datetime.date(*map(int, date)))
         except (ValueError, OverflowError):
             problem = "there is no day {:g}-{:g}-{:g}".format(*date)
             raise sheet.error(problem, "is a column lost?", row) from None
     hours = values.get("hour", 0.0 if mjd is None else 24 * np.modf(mjd)[0])
-    expected = np.asarray(np.array(days) + hours / 24)
+    expected = np.asarray(_since_mjd_0(np.array(days, dtype="M8[D]")) + hours / 24)
     if mjd is None:
         return expected
     problem = "MJD {mjd:.2f} differs from the calendar date, MJD {expected:.2f}"
@@ -83,10 +83,14 @@ def _from_besselian_years(sheet: Sheet, year: FloatArray) -> FloatArray:
     return np.asarray(15019.81352 + (year - 1900.0) * 365.242198781)
 
 
-def _from_text(sheet: Sheet, place: int) -> FloatArray:
+def _from_text(sheet: Sheet, cells: Sequence[str]) -> FloatArray:
     """Dates written as text, like 2020-01-31."""
-    cells = [row[place].strip().removesuffix("Z").replace(" ", "T") for row in sheet.rows]
+    dates = [cell.strip().removesuffix("Z").replace(" ", "T") for cell in cells]
     try:
-        return np.asarray((np.array(cells, dtype="M8[ms]") - MJD_0) / np.timedelta64(1, "D"))
+        return _since_mjd_0(np.array(dates, dtype="M8[ms]"))
     except ValueError:
         raise sheet.error("its dates are not understood", "write them like 2020-01-31") from None
+
+
+def _since_mjd_0(dates: NDArray[np.datetime64]) -> FloatArray:
+    return np.asarray((dates - MJD_0) / np.timedelta64(1, "D"))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import compress
 from pathlib import Path
 from typing import Any
 
@@ -37,8 +38,8 @@ class Sheet:
         Name of the file and the lines above its rows.
     names : list of str
         Names of the columns in the header; empty if there is none.
-    rows : list of sequence
-        Cells of the rows; arrays of the columns for a data frame.
+    cells : list of sequence
+        Cells of each column: text, or the array of a data frame.
     lines : list of int
         Line of each row in the file; empty for a data frame.
     text : list of int
@@ -52,7 +53,7 @@ class Sheet:
     file: Path | str
     words: str
     names: list[str]
-    rows: Sequence[Any]
+    cells: Sequence[Sequence[Any] | Array]
     lines: list[int] = field(default_factory=list)
     text: list[int] = field(default_factory=list)
     layout: TableLayout | None = None
@@ -65,8 +66,8 @@ class Sheet:
 
     @property
     def width(self) -> int:
-        """Number of columns, that of the first row in a file."""
-        return len(self.rows) if self.is_frame else len(self.rows[0])
+        """Number of columns."""
+        return len(self.cells)
 
     def error(self, problem: str, remedy: str = "", row: int | None = None) -> SeriesError:
         """Build an error whose message names the file, and the line of a row."""
@@ -83,29 +84,25 @@ class Sheet:
             values = {name: column[row] for name, column in columns.items()}
             raise self.error(problem.format(**values), remedy, row)
 
-    def only(self, kept: Sequence[bool]) -> Sheet:
+    def only(self, kept: Iterable[bool]) -> Sheet:
         """Return the table with a selection of its rows."""
-        rows = [row for row, keep in zip(self.rows, kept, strict=True) if keep]
-        lines = [line for line, keep in zip(self.lines, kept, strict=True) if keep]
-        return replace(self, rows=rows, lines=lines, known={})
+        kept = [*kept]
+        cells = [[*compress(column, kept)] for column in self.cells]
+        return replace(self, cells=cells, lines=[*compress(self.lines, kept)], known={})
 
     def column(self, place: int) -> FloatArray:
         """Return the numbers of a column; cells without a number are nan."""
         if place not in self.known:
-            self.known[place] = self._frame(place) if self.is_frame else self._numbers(place)
+            self.known[place] = self._numbers(place)
         return self.known[place]
 
-    def _frame(self, place: int) -> FloatArray:
-        try:
-            return real_numbers(self.rows[place])
-        except (TypeError, ValueError):
-            raise self.error(f"column '{self.names[place]}' holds more than numbers") from None
-
     def _numbers(self, place: int) -> FloatArray:
-        cells = [row[place] for row in self.rows]
+        cells = self.cells[place]
         try:
-            return np.array(cells, dtype=float)
-        except ValueError:
+            return real_numbers(cells) if self.is_frame else np.array(cells, dtype=float)
+        except (TypeError, ValueError):
+            if self.is_frame:
+                raise self.error(f"column '{self.names[place]}' holds more than numbers") from None
             return np.array([self._number(row, cell) for row, cell in enumerate(cells)])
 
     def _number(self, row: int, cell: str) -> float:
@@ -114,10 +111,22 @@ class Sheet:
         except ValueError as error:
             raise self.error(str(error), "a number is expected", row) from None
 
-    def converted(
-        self, place: int, column: Meaning, unit: str, rows: slice | BoolArray = slice(None)
+    def values(
+        self,
+        columns: Sequence[Meaning],
+        quantity: str,
+        unit: str,
+        rows: slice | BoolArray = slice(None),
+        missing: float = np.nan,
     ) -> FloatArray:
-        """Return the numbers of a column in a unit, in all or some rows."""
+        """Return the numbers of a quantity in a unit, in all or some rows.
+
+        Without a column of the quantity they are `missing`.
+        """
+        place = next((n for n, column in enumerate(columns) if column.quantity == quantity), None)
+        if place is None:
+            return np.full(len(self.cells[0]), missing)[rows]
+        column = columns[place]
         try:
             factor, origin = column.conversion(unit)
         except ValueError:
@@ -214,16 +223,16 @@ def split(file: Path, layouts: Sequence[TableLayout] = ()) -> Sheet:
     if not rows:
         raise SeriesError(file, "it holds no rows of numbers", "is it complete?")
     if layout and layout.edges:
-        cut = [[line[begin:end] for begin, end in layout.edges] for line in rows]
+        cut = [[line[begin:end] for line in rows] for begin, end in layout.edges]
         return Sheet(file, words, [], cut, numbers, text, layout)
     mark = text_of.delimiter_of(rows[0])
     cells = text_of.cells_of(rows, mark)
     cells, names = _cells_and_names(cells, head, mark)
-    sheet = Sheet(file, words, names, cells, numbers, text, layout)
+    sheet = Sheet(file, words, names, [*zip(*cells, strict=False)], numbers, text, layout)
     count = np.array([len(row) for row in cells])
-    other = count != sheet.width
+    other = count != count[0]
     remedy = "is a column lost?" if other[:-1].any() else "is the file cut off?"
-    sheet.refuse(other, f"{{count}} columns; {sheet.width} are expected", remedy, count=count)
+    sheet.refuse(other, f"{{count}} columns; {count[0]} are expected", remedy, count=count)
     return sheet
 
 
