@@ -245,11 +245,10 @@ def _times_of(frame: Any, names: list[str]) -> NDArray[np.datetime64]:
     known = places(FRAME, names, DATES)
     for place, name in enumerate(names):
         column = series_of(frame, place)
-        kind = str(column.dtype)
-        if kind.startswith("period"):
-            return np.asarray(column.dt.to_timestamp().to_numpy())
-        if kind.startswith("datetime64") and getattr(column.dt, "tz", None) is not None:
-            return np.asarray(column.dt.tz_convert(None).to_numpy())
+        if str(column.dtype).startswith("period"):
+            column = column.dt.to_timestamp()
+        elif getattr(column.dtype, "tz", None) is not None:
+            column = column.dt.tz_convert(None)
         values = column.to_numpy()
         if values.dtype.kind == "M":
             return np.asarray(values)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -227,7 +227,7 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
     if isinstance(path, GivenSeries):
         return None
     file = file_of(path)
-    sheet, table = pole_tables.split(file, None, None, _observed_pole)
+    sheet, table = pole_tables.split(file, None, None, partial(_observed, POLAR_MOTION))
     if not table.name.startswith("finals2000A"):
         return None
     sheet = pole_tables.observed(sheet, table, POLAR_MOTION, predicted=True)
@@ -239,27 +239,31 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
     return replace(_series(even, "Bulletin A", []), sha256=tables.checksum(file))
 
 
-#: File, its SHA-256, kind, columns, and coordinates that are read from it.
-_Request = tuple[Path, str, str | None, str | None, Coordinates]
+#: Name of a table, its observed rows, and their repairs.
+_Parsed = tuple[str, FloatArray, tuple[str, ...]]
 
 
 def _read(
     path: PoleTable, pair: Coordinates, kind: str | None, columns: str | None, span: _Interval
 ) -> PoleSeries:
     """Read polar motion or celestial pole offsets; unchanged files are not parsed again."""
+    file: Path | str = _GIVEN
     if isinstance(path, GivenSeries):
         if columns:
             problem = f"columns='{columns}' are those of a file"
             raise SeriesError(_GIVEN, problem, "rename the columns of the table instead")
-        return _of_given(path, pair, span)
-    file = file_of(path)
-    if kind and columns:
-        raise SeriesError(file, "kind and columns are both given", "leave out one of them")
-    return _of_file((file, tables.checksum(file), kind, columns, pair), span)
+        sha256, parsed = "", _of_given(path, pair)
+    else:
+        file = file_of(path)
+        if kind and columns:
+            raise SeriesError(file, "kind and columns are both given", "leave out one of them")
+        sha256 = tables.checksum(file)
+        parsed = _of_file(file, sha256, kind, columns, pair)
+    return replace(_checked(file, parsed, pair, span), sha256=sha256)
 
 
-def _of_given(given: GivenSeries, pair: Coordinates, span: _Interval) -> PoleSeries:
-    """Check a table of the caller."""
+def _of_given(given: GivenSeries, pair: Coordinates) -> _Parsed:
+    """Rows of a table of the caller."""
     days, *values = given.rows
     rows = np.full((days.size, len(COLUMNS)), np.nan)
     rows[:, 0], rows[:, 1] = np.arange(1, days.size + 1), days + MJD
@@ -270,53 +274,39 @@ def _of_given(given: GivenSeries, pair: Coordinates, span: _Interval) -> PoleSer
     if pair is POLAR_MOTION:
         sheet = Sheet(tables.FRAME, "", ["x", "y"], [1e3 * rows[:, 2], 1e3 * rows[:, 3]])
         meaning = pole_tables.PoleColumns(_GIVEN, [Meaning("x", "mas"), Meaning("y", "mas")])
-        pole_tables.check(sheet, meaning, rows[:, 1], _observed_pole())
-    return _checked(_GIVEN, _GIVEN, rows, pair, span, repairs)
+        pole_tables.check(sheet, meaning, rows[:, 1], _observed(pair))
+    return _GIVEN, rows, tuple(repairs)
 
 
 @lru_cache(maxsize=8)
-def _of_file(request: _Request, span: _Interval) -> PoleSeries:
-    """Check the rows of a file; results are cached."""
-    name, rows, repairs = _parsed(request)
-    file, sha256, *_, pair = request
-    if name == "c01" and pair is POLE_OFFSETS:
-        rows = rows[~(rows[:, 1] < span[0])]
-    return replace(_checked(file, name, rows, pair, span, [*repairs]), sha256=sha256)
-
-
-@lru_cache(maxsize=8)
-def _parsed(request: _Request) -> tuple[str, FloatArray, tuple[str, ...]]:
-    """Name of a table, its observed rows and their repairs; results are cached."""
-    file, _, kind, columns, pair = request
-    sheet, table = pole_tables.split(file, kind, columns, _observed_pole)
+def _of_file(
+    file: Path, sha256: str, kind: str | None, columns: str | None, pair: Coordinates
+) -> _Parsed:
+    """Rows of a file with a checksum; results are cached."""
+    sheet, table = pole_tables.split(file, kind, columns, partial(_observed, POLAR_MOTION))
     rows = pole_tables.rows_of(sheet := pole_tables.observed(sheet, table, pair), table, pair)
     repairs: list[str] = []
     complete = checks.complete(file, rows, sheet.text, repairs)
     if pair is POLAR_MOTION and not _is_carried(file):
-        pole_tables.check(sheet, table, rows[:, 1], _observed_pole())
+        pole_tables.check(sheet, table, rows[:, 1], _observed(pair))
     return table.name, complete, tuple(repairs)
 
 
-def _checked(
-    file: Path | str,
-    name: str,
-    rows: FloatArray,
-    pair: Coordinates,
-    span: _Interval,
-    repairs: list[str],
-) -> PoleSeries:
+def _checked(file: Path | str, parsed: _Parsed, pair: Coordinates, span: _Interval) -> PoleSeries:
     """Convert the rows of a table to a series; repair small defects and refuse large ones."""
-    if pair is POLE_OFFSETS:
-        rows = checks.drop_zeros(rows, repairs)
-    if len(rows) < 2:
+    name, rows, (*repairs,) = parsed
+    if pair is POLE_OFFSETS and name == "c01":
+        rows = rows[~(rows[:, 1] < span[0])]
+    observed = checks.without_fillers(rows, pair, repairs)
+    if len(observed) < 2:
         remedy = "is it complete?" if pair is POLAR_MOTION else NOT_IAU_1980
-        raise SeriesError(file, f"it holds {len(rows)} rows of {pair.name}", remedy)
-    observed = checks.without_fillers(rows, repairs)
+        raise SeriesError(file, f"it holds {len(observed)} rows of {pair.name}", remedy)
     checks.check_size(file, observed, pair, name)
     if pair is POLE_OFFSETS and not _is_carried(file):
         _check_model(file, observed)
     ordered = checks.in_order(file, observed, repairs)
-    part = checks.without_gaps(ordered, span, len(observed) < len(rows), repairs)
+    filled = len(observed) < np.count_nonzero(rows[:, 1] >= ordered[0, 1])
+    part = checks.without_gaps(ordered, span, filled, repairs)
     checks.check_jumps(file, part, pair)
     return _series(checks.evenly_spaced(file, part, repairs), name, repairs)
 
@@ -339,9 +329,9 @@ def _is_carried(file: object) -> bool:
 
 
 @cache
-def _observed_pole() -> FloatArray:
-    """Modified Julian dates, x and y of finals2000A, arcsec, shape (3, n)."""
-    finals = read_polar_motion("finals")
+def _observed(pair: Coordinates) -> FloatArray:
+    """Modified Julian dates, and both coordinates of finals2000A, arcsec, shape (3, n)."""
+    finals = _read("finals", pair, None, None, ALL)
     return np.array([finals.mjd, finals.x / ARCSEC, finals.y / ARCSEC])
 
 
@@ -351,12 +341,8 @@ def _check_model(file: object, rows: FloatArray) -> None:
     The size alone does not show the model: offsets from IAU 1980 stay below 20 mas until 1991, and
     the oldest of those from IAU 2006/2000A reach 9 mas.
     """
-    finals = read_pole_offsets("finals")
-    neighbours = [
-        np.interp(rows[:, 1], finals.mjd, values / ARCSEC, np.nan, np.nan)
-        for values in (finals.x, finals.y)
-    ]
-    distance = np.max(abs(rows[:, 2:4].T - neighbours), axis=0)
+    off = pole_tables.differences(rows[:, 1], rows[:, 2:4].T, _observed(POLE_OFFSETS))
+    distance = np.max(abs(off), axis=0)
     suspect = np.max(abs(rows[:, 2:4]), axis=1) > _LARGEST_ELSEWHERE
     wrong = suspect & ~(distance <= _ANOTHER_MODEL)
     checks.refuse(file, rows, wrong, "dX, dY = {x:g}, {y:g} arcsec", NOT_IAU_1980)

@@ -91,15 +91,6 @@ def complete(file: object, rows: FloatArray, text: list[int], repairs: list[str]
     return complete
 
 
-def drop_zeros(rows: FloatArray, repairs: list[str]) -> FloatArray:
-    """Remove the rows of zeros that some tables have before the first observation."""
-    observed = np.logical_or.accumulate(np.any(rows[:, 2:4] != 0, axis=1))
-    if not observed.all():
-        count = np.count_nonzero(~observed)
-        repairs.append(f"{count} rows of zeros at the start, before observations, left out")
-    return rows[observed]
-
-
 def check_size(file: object, rows: FloatArray, pair: Coordinates, name: str) -> None:
     """Refuse pole coordinates of implausible size (wrong unit or model), and negative errors."""
     values, size = f"{pair.words} = {{x:g}}, {{y:g}} arcsec", np.hypot(rows[:, 2], rows[:, 3])
@@ -144,16 +135,20 @@ def in_order(file: object, rows: FloatArray, repairs: list[str]) -> FloatArray:
     return np.asarray(ordered[np.append(True, ~repeated)])
 
 
-def without_fillers(rows: FloatArray, repairs: list[str]) -> FloatArray:
-    """Leave out rows in which a value and its error are zero: nothing was observed there.
+def without_fillers(rows: FloatArray, pair: Coordinates, repairs: list[str]) -> FloatArray:
+    """Leave out rows of zeros where nothing was observed.
 
-    C01 has such rows of y from 1858.9 to 1860.9.
+    These are rows in which a value and its error are zero, as for y of C01 from 1858.9 to 1860.9,
+    and the offsets of zero with which C04 and C01 begin.
     """
-    filled = np.any((rows[:, 2:4] == 0) & (rows[:, 4:] == 0), axis=1)
+    zero = rows[:, 2:4] == 0
+    filled = np.any(zero & (rows[:, 4:] == 0), axis=1)
+    if pair is POLE_OFFSETS:
+        filled |= np.logical_and.accumulate(zero.all(axis=1))
     if filled.any():
         first, last = map(day_of, rows[filled][[0, -1], 1])
         count = np.count_nonzero(filled)
-        repairs.append(f"{count} rows of zeros with errors of zero left out, {first} to {last}")
+        repairs.append(f"{count} rows of zeros, not observed, left out, {first} to {last}")
     return np.asarray(rows[~filled])
 
 

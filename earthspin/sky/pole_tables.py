@@ -253,15 +253,22 @@ def _misfit(sheet: Sheet, mjd: FloatArray, columns: Sequence[Meaning], known: Fl
 
     It is nan without common days.
     """
-    common = (mjd >= known[0, 0]) & (mjd <= known[0, -1])
-    if np.count_nonzero(common) < FEWEST:
+    named = [name in {column.quantity for column in columns} for name in "xy"]
+    values = [sheet.values(columns, name, "arcsec") for name in "xy"]
+    distance = np.hypot.reduce(differences(mjd, values, known)[named])
+    if np.count_nonzero(np.isfinite(distance)) < FEWEST:
         return math.nan
-    off = [
-        sheet.values(columns, name, "arcsec", common) - np.interp(mjd[common], known[0], values)
-        for name, values in zip("xy", known[1:], strict=True)
-        if name in {column.quantity for column in columns}
-    ]
-    return float(np.nanmedian(np.hypot.reduce(off))) / SAME_POLE if off else math.nan
+    return float(np.nanmedian(distance)) / SAME_POLE
+
+
+def differences(mjd: FloatArray, values: Sequence[FloatArray], known: FloatArray) -> FloatArray:
+    """Two coordinates minus those of a known series; nan on dates outside it."""
+    return np.array(
+        [
+            value - np.interp(mjd, known[0], expected, np.nan, np.nan)
+            for value, expected in zip(values, known[1:], strict=True)
+        ]
+    )
 
 
 def _others(columns: Sequence[Meaning]) -> Iterator[list[Meaning]]:

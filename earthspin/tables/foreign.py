@@ -38,11 +38,6 @@ _FORMATS = {
 }  # fmt: skip
 
 
-def is_foreign(head: bytes) -> bool:
-    """Return True if a file with these first bytes is known to hold no table of text."""
-    return any(re.match(pattern, head) for pattern in _FORMATS)
-
-
 def refuse(file: object, data: bytes) -> None:
     """Refuse a file that is known to hold no table of text, by the name of its format.
 

@@ -59,7 +59,7 @@ def _bytes_of(file: Path) -> bytes:
 
 
 def is_table(head: bytes) -> bool:
-    """Return True if the readers of tables take a file, if only to name what it is instead.
+    """Return True if a file may be a table of text.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def is_table(head: bytes) -> bool:
         head = head[: len(head) // 2 * 2].decode("utf-16", errors="replace").encode()
     row = re.search(rb"(?m)^[\s,;\"']*[-+]?\.?\d", head)
     text = b"\0" not in head and row is not None
-    return head.startswith(_GZIP) or text or foreign.is_foreign(head)
+    return head.startswith(_GZIP) or text
 
 
 def checksum(file: Path) -> str:

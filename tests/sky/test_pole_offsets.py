@@ -26,7 +26,7 @@ def test_c04_against_astropys_own_reader() -> None:
     # the rows before have zeros in both columns, which no observation gave
     observed = table["dX_2000A"].to_value("arcsec") != 0
     assert series.mjd[0] == table["MJD"].value[observed][0] == 45700
-    assert "rows of zeros at the start" in series.repairs
+    assert "rows of zeros, not observed, left out, 1962-01-01 to 1983-12-31" in series.repairs
 
 
 def test_finals_by_its_documented_columns() -> None:

@@ -217,7 +217,7 @@ def test_zeros_without_error_are_no_observations(file: Path) -> None:
     file.write_text("\n".join(rows))
     series = eop.read_polar_motion(file)
     assert series.mjd[0] == pytest.approx(mjd[40], abs=1e-3)
-    assert "20 rows of zeros with errors of zero left out, 1858-02-" in series.repairs
+    assert "20 rows of zeros, not observed, left out, 1858-02-" in series.repairs
     early = earthspin.polar_motion(file=file, span=("1856-03-01", "1857-12-31"))
     assert early.sizes["time"] > 15
     assert not (early.y == 0).any()
