@@ -26,6 +26,7 @@ from earthspin.questions.observed_pole import (
     DailyPole,
     GivenTable,
     PoleInput,
+    refuse_other_excitation,
 )
 from earthspin.questions.reasons import no_iau_model
 from earthspin.sky import eop
@@ -190,7 +191,11 @@ def _from_common_day(
         problem = "give the mean of each day; read_excitation(..., daily=True) makes it, 0h to 0h"
         raise SceneError("excitation", means, problem)
     skipped = round(before)
-    return record.pole[max(skipped, 0) :], (chi1 + 1j * chi2)[max(-skipped, 0) :]
+    start, pole, chi = max(skipped, 0), record.pole, chi1 + 1j * chi2
+    pole, chi = pole[start:], chi[max(-skipped, 0) :]
+    both = min(pole.size - 1, chi.size)
+    refuse_other_excitation(record.mjd[start : start + both + 1], pole[: both + 1], chi[:both])
+    return pole, chi
 
 
 class ForecastPole(DailyPole):

@@ -27,6 +27,7 @@ from earthspin.sky.eop import GivenSeries, PoleSeries
 from earthspin.sky.pole_tables import NAMES
 from earthspin.tables import DATES, FRAME, column_of, is_frame, is_table, places, series_of
 from earthspin.units import FileName, Plain, Text, pack, unpack
+from earthspin.wobble import excitation
 from earthspin.wobble.excitation import pole_of
 
 #: Smallest and largest plausible value of the largest distance from the conventional pole, mas.
@@ -200,6 +201,22 @@ def labelled_series(
         raise SceneError("time", str(series.time.values[1:][backward][0]), problem)
     first, second = (si(series[name]).values for name in names)
     return time, first, second
+
+
+def refuse_other_excitation(time: FloatArray, p: ComplexArray, chi: ComplexArray) -> None:
+    """Refuse an excitation that agrees with the pole only if chi1 and chi2 mean something else.
+
+    Raises
+    ------
+    SceneError
+        It gives the other meaning.
+    """
+    if other := excitation.other_meaning(time, p, chi):
+        words, ratio = other
+        problem = f"they agree with the pole as '{words['chi1']}' and '{words['chi2']}'"
+        size = f"they are {ratio:.1g} times what moves the pole; are they in mas?"
+        same = words == {"chi1": "chi1", "chi2": "chi2"}
+        raise SceneError("excitation", "its chi1 and chi2", size if same else problem)
 
 
 #: Names of variables in a Dataset for those of columns.

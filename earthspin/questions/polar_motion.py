@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -15,13 +17,15 @@ from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine import Neglected, in_range, part, public_call, setting
 from earthspin.engine.variables import Variables, labels, measured, number
-from earthspin.errors import SceneError, Where, nearest
+from earthspin.errors import SceneError, SeriesError, Where, nearest
 from earthspin.mass.figure import polar_radius
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.questions import observed_pole as tables
 from earthspin.questions.observed_pole import complex_pole, labelled_series
-from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
+from earthspin.sky.angular_momentum import TERMS, AngularMomentum, read_angular_momentum
 from earthspin.sky.eop import MJD, PoleSeries, PoleTable, read_polar_motion
+from earthspin.tables import Meaning, declared, typed
+from earthspin.tables.layouts import ANGULAR_MOMENTUM
 from earthspin.units import Days, FileName, Number, Numbers, Several, Text, Word, kind_of
 from earthspin.wobble import excitation as ex
 from earthspin.wobble import record
@@ -330,13 +334,19 @@ def _together(
         remedy = "read_excitation(..., daily=True) makes them from 0h to 0h"
         raise SceneError("excitation", given, f"give {means}; {remedy}")
     common = slice(start, start + count)
-    return time[common], p[common], driving[first : first + count - 1], repairs
+    time, p, driving = time[common], p[common], driving[first : first + count - 1]
+    tables.refuse_other_excitation(time, p, driving)
+    return time, p, driving, repairs
 
 
 def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     """Return the times of an excitation series, days from J2000.0, and chi1 + i chi2, mas."""
     time, chi1, chi2 = labelled_series(chi, ("chi1", "chi2"), ("mas",))
     return time, ex.excitation_of(chi1, chi2) / MAS
+
+
+#: Units in which files may hold angular momentum.
+_UNITS = ("rad", "arcsec", "mas", "uas", "deg")
 
 
 class Excitation(tables.Daily, no_error="the files give no errors"):
@@ -560,9 +570,37 @@ def read_excitation(
         columns = Text().read(columns, Where("columns"))
     table = read_angular_momentum(paths, components, daily=daily, columns=columns)
     chi = sum(getattr(table, term) for term in set(terms))
+    _refuse_other_columns(table, chi, columns)
     result = Excitation(time=datetime64(table.mjd - MJD), chi1=chi.real, chi2=chi.imag).dataset()
     names = " + ".join(components or ("all components",))
     return result.assign_attrs(source=f"{names} ({', '.join(terms)})")
+
+
+def _refuse_other_columns(table: AngularMomentum, chi: ComplexArray, columns: str | None) -> None:
+    """Refuse columns of files that agree with the pole of C04 only in another meaning."""
+    if table.mjd[-1] - table.mjd[0] < ex.FEWEST:
+        return
+    pole, daily = read_polar_motion(), replace(table, mass=chi, motion=chi).daily()
+    _, noons, days = np.intersect1d(daily.mjd, pole.mjd[:-1] + 0.5, return_indices=True)
+    days = np.append(days, days[-1:] + 1)
+    other = ex.other_meaning(pole.mjd[days], pole.pole[days], daily.mass[noons] / MAS)
+    if other:
+        given = declared(columns or ANGULAR_MOMENTUM[0 if np.any(table.motion) else 1].columns)
+        meant = [_meant(column, *other) for column in given]
+        problem = f"with {typed(given)} its numbers do not move the pole of C04"
+        raise SeriesError("excitation", problem, f"they do with {typed(meant)}; give what is right")
+
+
+def _meant(column: Meaning, words: dict[str, str], ratio: float) -> Meaning:
+    """Meaning of a column of angular momentum after chi1 and chi2 are exchanged or reversed."""
+    if column.quantity[:-1] not in TERMS:
+        return column
+    word, unit = words[f"chi{column.quantity[-1]}"], column.unit or "rad"
+    if not 1 / ex.OTHER_UNIT < ratio < ex.OTHER_UNIT:
+        sizes = {other: Meaning("", other).conversion("rad")[0] for other in (unit, *_UNITS)}
+        unit = min(_UNITS, key=lambda other: abs(math.log(ratio * sizes[other] / sizes[unit])))
+    sign = column.sign * (-1.0 if word[0] == "-" else 1.0)
+    return Meaning(column.quantity[:-1] + word[-1], unit, sign)
 
 
 def _even_step(time: FloatArray) -> float:

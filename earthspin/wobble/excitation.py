@@ -161,3 +161,62 @@ def fitted_start(time: FloatArray, p: ComplexArray, chi: ComplexArray, s: comple
     residual = p - polar_motion_from(chi, step, s)
     free_wobble = np.exp(1j * s * (time - time[0]))
     return complex(least_squares(np.column_stack([known_terms(time), free_wobble]), residual)[-1])
+
+
+# --- what chi1 and chi2 mean ----------------------------------------------------------------------
+
+#: Correlation with the excitation that moves the pole from which another meaning agrees with it,
+#: and its smallest ratio to that of the given meaning.
+LIKE, BETTER = 0.4, 2.0
+#: Smallest number of days that are compared, and ratio of sizes from which the unit is another.
+FEWEST, OTHER_UNIT = 365, 1e3
+#: Period (d) and quality factor of the free wobble in the comparison.
+_FREE = (433.0, 100.0)
+
+
+def other_meaning(
+    time: FloatArray, p: ComplexArray, chi: ComplexArray
+) -> tuple[dict[str, str], float] | None:
+    """Find another meaning of chi1 and chi2 that agrees with the pole where they do not.
+
+    Drift and seasonal terms are removed first, of which ocean and land water have other signs than
+    the atmosphere.
+
+    Parameters
+    ----------
+    time : array, shape (n,)
+        Days.
+    p : complex array, shape (n,)
+        Observed, x - i y.
+    chi : complex array, shape (n - 1,)
+        Means over the steps, in the unit of p.
+
+    Returns
+    -------
+    dict of str to str
+        What the numbers given as chi1 and chi2 are, such as ``{"chi1": "-chi2", "chi2": "chi1"}``.
+    float
+        Their size as a multiple of that of the excitation that moves the pole.
+
+    None is returned if they agree, if no meaning agrees, or if less than a year is compared.
+    """
+    if time.size < 2 or (span := float(time[-1] - time[0])) < FEWEST:
+        return None
+    terms = known_terms(middles_of_steps(time))
+    needed = excitation(p, span / (time.size - 1), chandler_frequency(*_FREE))
+    observed, given = (part - terms @ least_squares(terms, part) for part in (needed, chi))
+    series = np.array([given.real, given.imag, observed.real, observed.imag])
+    sizes = np.std(series, axis=1)
+    if not np.all(sizes > 0):
+        return None
+    ratio = float(np.hypot(*sizes[:2]) / np.hypot(*sizes[2:]))
+    same = np.corrcoef(series)[:2, 2:]  # of the given chi1 and chi2 with the observed ones
+    straight, exchanged = np.diagonal(same), np.diagonal(same[:, ::-1])
+    meanings = ((straight, ("chi1", "chi2")), (exchanged, ("chi2", "chi1")))
+    signs, names = max(meanings, key=lambda meaning: min(abs(meaning[0])))
+    best = min(abs(signs))
+    same_unit = 1 / OTHER_UNIT < ratio < OTHER_UNIT
+    if best < LIKE or (same_unit and best < BETTER * min(straight)):
+        return None
+    words = ["-" * bool(sign < 0) + name for sign, name in zip(signs, names, strict=True)]
+    return dict(zip(("chi1", "chi2"), words, strict=True)), ratio
