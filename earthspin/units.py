@@ -14,7 +14,7 @@ import os
 import re
 import typing
 import warnings
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from types import NoneType
@@ -248,6 +248,12 @@ class _Target:
     def wrong(self, value: object) -> UnitsError:
         return UnitsError(str(self.where), value, self.unit or "a pure number", self.example)
 
+    def refuse_mixed(self, values: Sequence[object]) -> None:
+        """Refuse numbers without a unit in a list of others that have one."""
+        if self.unit and is_bare(values):
+            problem = f"numbers with and without a unit; give each its unit, like '{self.example}'"
+            raise self.where.error(values, problem)
+
     def converted(self, numbers: FloatArray, unit: Any, value: object) -> Any:
         """Convert the numbers of a value from its unit, None if it has none."""
         if unit is None:
@@ -337,11 +343,13 @@ def _convert(value: Any, target: _Target) -> Any:
         value = value.to("s")
     numbers, unit = numbers_and_unit(value)
     if isinstance(numbers, (list, tuple)) and any(map(has_unit, numbers)):
+        target.refuse_mixed(numbers)
         return np.stack([_convert(inner, target) for inner in numbers])
     array = np.asarray(numbers)
     if array.dtype.kind == "m":
         array, unit = array / np.timedelta64(1, "us") / 1e6, "s"  # a month has no length in seconds
     if target.unit and array.dtype.kind in "OU" and any(map(has_unit, array.flat)):
+        target.refuse_mixed(array.ravel().tolist())
         converted = np.reshape([_convert(inner, target) for inner in array.flat], array.shape)
     else:
         converted = target.converted(real_numbers(array), unit, value)

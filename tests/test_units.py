@@ -332,7 +332,7 @@ def test_a_number_may_want_its_unit() -> None:
     [
         ((None,), [1, 2, 3], (3,)),
         ((None,), 5.0, (1,)),
-        ((3,), ["1 m", "2 km", 3], (3,)),
+        ((3,), ["1 m", "2 km", "3 m"], (3,)),
         ((None, 3), [1, 2, 3], (1, 3)),
         ((None, 3), [[1, 2, 3], [4, 5, 6]], (2, 3)),
         ((None, 3), [[1 * u.m, 2 * u.km, 3 * u.m]], (1, 3)),
@@ -344,6 +344,21 @@ def test_arrays_have_the_shape_that_is_wanted(
     values = Numbers("m", "1 m", shape).read(given, STEP)
     assert values.shape == found
     assert not values.flags.writeable
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        ["1 km", 5],
+        [[1 * u.km, 5, 2 * u.km]],
+        np.array(["1 km", 5.0, "2 km"], dtype=object),
+        ["1 km", 0.0, "2 km"],
+    ],
+)
+def test_numbers_beside_quantities_need_a_unit(given: object) -> None:
+    """Whether 5 is a metre or a kilometre is not guessed."""
+    with pytest.raises(SceneError, match=r"with and without a unit; .* like '1 km'"):
+        Numbers("m", "1 km", (None, 3)).read(given, STEP)
 
 
 @pytest.mark.parametrize(

@@ -231,7 +231,7 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
     if not table.name.startswith("finals2000A"):
         return None
     sheet = pole_tables.observed(sheet, table, POLAR_MOTION, predicted=True)
-    if len(sheet.rows) < 2:
+    if len(sheet.lines) < 2:
         return None
     rows = pole_tables.rows_of(sheet, table, POLAR_MOTION)
     checks.check_size(file, rows, POLAR_MOTION, table.name)
@@ -305,7 +305,7 @@ def _checked(file: Path | str, parsed: _Parsed, pair: Coordinates, span: _Interv
     if pair is POLE_OFFSETS and not _is_carried(file):
         _check_model(file, observed)
     ordered = checks.in_order(file, observed, repairs)
-    filled = len(observed) < np.count_nonzero(rows[:, 1] >= ordered[0, 1])
+    filled = len(observed) < int(np.sum(rows[:, 1] >= ordered[0, 1]))
     part = checks.without_gaps(ordered, span, filled, repairs)
     checks.check_jumps(file, part, pair)
     return _series(checks.evenly_spaced(file, part, repairs), name, repairs)

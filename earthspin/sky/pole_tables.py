@@ -9,7 +9,7 @@ import datetime
 import itertools
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -261,7 +261,7 @@ def _misfit(sheet: Sheet, mjd: FloatArray, columns: Sequence[Meaning], known: Fl
     return float(np.nanmedian(distance)) / SAME_POLE
 
 
-def differences(mjd: FloatArray, values: Sequence[FloatArray], known: FloatArray) -> FloatArray:
+def differences(mjd: FloatArray, values: Iterable[FloatArray], known: FloatArray) -> FloatArray:
     """Two coordinates minus those of a known series; nan on dates outside it."""
     return np.array(
         [

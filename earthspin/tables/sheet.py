@@ -53,7 +53,7 @@ class Sheet:
     file: Path | str
     words: str
     names: list[str]
-    cells: Sequence[Sequence[Any] | Array]
+    cells: Sequence[Any]
     lines: list[int] = field(default_factory=list)
     text: list[int] = field(default_factory=list)
     layout: TableLayout | None = None
