@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from functools import cache, partial
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,9 +36,6 @@ FARTHEST = 5000.0
 
 #: Bodies with which a solution is compared.
 KNOWN = ("earth", "mars")
-#: Interval around J2000.0 in which it is compared, Julian years, and fewest rows of a longer table
-#: in it: fewer do not tell the past from the future.
-NEAR, FEWEST = 20_000.0, 3
 #: Largest median difference, in the units of `long_term`. Published solutions differ by up to a
 #: third of it (Berger & Loutre 1991).
 BOUNDS = {"eccentricity": 0.0015, "obliquity": 0.1, "longitude_of_perihelion": 3.0}
@@ -119,9 +117,8 @@ def read_solution(
     data = _converted(sheet, meaning)
     tables.refuse_other_meaning(sheet, meaning, _others(sheet, meaning), partial(_misfit, sheet))
     body = next((body for body in KNOWN if _misfit(sheet, meaning, (body,)) <= 1), "")
-    origin = {"source": tables.FRAME if frame else as_path(path).name}
-    origin["columns"] = columns or tables.written(meaning)
-    origin |= {} if frame else {"sha256": tables.checksum(as_path(path))}
+    origin = {"source": Path(sheet.file).name, "columns": columns or tables.written(meaning)}
+    origin |= {} if sheet.is_frame else {"sha256": tables.checksum(Path(sheet.file))}
     solution = xr.Dataset(attrs=origin | ({"body": body} if body else {}))
     for name, column in _in_order(sheet, data).items():
         attributes = {"long_name": QUANTITIES[name].long_name, "units": QUANTITIES[name].units}
@@ -212,21 +209,21 @@ def _misfit(
 ) -> float:
     """Largest median difference from a known body in units of its bound; inf if none is known.
 
-    It is also inf if columns must change, since constants fit times in any unit, and none does.
+    It is also inf if columns must change and none does.
     """
     try:
         place = [column.quantity for column in meaning].index("epoch")
         factor, origin = meaning[place].conversion("yr")
-        near = abs(factor * sheet.column(place) + origin) <= NEAR
+        near = abs(factor * sheet.column(place) + origin) <= tables.NEAR
         if abs(factor) == 1 and _are_calendar_years(sheet, place):
             return math.inf
         data = _converted(sheet, meaning, near)
     except ValueError:  # a column of text is one, too
         return math.inf
     names = [name for name in BOUNDS if name in data]
-    if np.count_nonzero(near) < max(1, min(FEWEST, near.size)) or not names:
+    if np.count_nonzero(near) < max(1, min(tables.FEWEST, near.size)) or not names:
         return math.inf
-    if changing and not any(np.ptp(data[name]) > 0.1 * BOUNDS[name] for name in names):
+    if changing and not any(np.ptp(data[name]) > tables.CHANGE * BOUNDS[name] for name in names):
         return math.inf
 
     def misfit(body: str, name: str) -> float:

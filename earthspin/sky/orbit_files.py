@@ -63,12 +63,9 @@ _WORDS = {
     r"varpi|pomega|long.*peri|lph|lop": "varpi", r"omega_?$|peri|arg|aop": "omega",
     r"node|lan|raan": "Omega", r"^([khqp])$": r"\1",
 }  # fmt: skip
-#: Interval around J2000.0 in which an orbit is compared with that of the package, s, and largest
-#: median distance of the normals, or of the eccentricity vectors, of the same orbit; the argument
-#: of the perihelion for its longitude makes 0.007, degrees for radians 0.02.
-NEAR, SAME = 20_000 * JULIAN_YEAR, 0.0015
-#: Fewest rows in it that are compared.
-FEWEST_NEAR = 3
+#: Largest median distance of the normals, or of the eccentricity vectors, from those of the
+#: package; the argument of the perihelion for its longitude makes 0.007, degrees for radians 0.02.
+SAME = 0.0015
 #: Smallest number of rows, and smallest and largest spacing, s.
 FEWEST, CLOSEST, FARTHEST = 16, JULIAN_YEAR, 5000 * JULIAN_YEAR
 #: Ratio to the usual step above which a step is a gap.
@@ -201,7 +198,7 @@ def read_orbit(
     _check_times(rows)
     _compare(rows, declared, axes, body)
     table = _table(rows, body, axes, frame)
-    return table if sheet.is_frame else replace(table, sha256=tables.checksum(Path(path)))
+    return table if sheet.is_frame else replace(table, sha256=tables.checksum(Path(sheet.file)))
 
 
 # --- columns and their meaning --------------------------------------------------------------------
@@ -284,12 +281,12 @@ def _compare(given: _Rows, declared: bool, axes: FloatArray, body: str) -> None:
     def misfit(columns: Sequence[Meaning]) -> float:
         try:
             rows = _Rows.of_sheet(given.sheet, columns)
-            near = np.abs(rows.times) <= NEAR
-            if np.count_nonzero(near) < FEWEST_NEAR:
+            near = np.abs(rows.times) <= tables.NEAR * JULIAN_YEAR
+            if np.count_nonzero(near) < tables.FEWEST:
                 return math.nan
             vectors = np.array(rows.vectors())[:, near] @ axes
-            if columns is not meaning and np.ptp(vectors, axis=1).max() < 0.1 * SAME:
-                return math.inf  # an orbit that does not change fits times in any unit
+            if columns is not meaning and np.ptp(vectors, axis=1).max() < tables.CHANGE * SAME:
+                return math.inf
         except SeriesError:
             return math.inf
         off = vectors - np.swapaxes(known.at(rows.times[near])[:2], 1, 2)

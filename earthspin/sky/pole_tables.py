@@ -125,12 +125,8 @@ def _by_names(sheet: Sheet, kind: str | None) -> PoleColumns | None:
 
 def _without_header(sheet: Sheet, kind: str | None) -> Sequence[published.TableLayout]:
     """Layouts without a header that are possible by the first cell of a table, or of a kind."""
-    if kind == "c04":
-        return published.C04
-    if kind == "c01":
-        return (published.C01_BY_MJD, *published.C01_BY_YEAR)
     if sheet.names or kind:
-        return ()
+        return published.POLE_BY_KIND.get(kind or "", ())
     first = sheet.cells[0][0]
     if not (tables.is_number(first) and 1800 <= float(first.replace(",", ".")) <= 2200):
         return (published.C01_BY_MJD,)

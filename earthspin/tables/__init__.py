@@ -11,13 +11,13 @@ from earthspin.tables.columns import (
     with_words,
     written,
 )
-from earthspin.tables.meaning import guessed, refuse_other_meaning
+from earthspin.tables.meaning import CHANGE, FEWEST, NEAR, guessed, refuse_other_meaning
 from earthspin.tables.sheet import FRAME, Sheet, is_frame, of_frame, series_of, split, typed
 from earthspin.tables.text import checksum, is_number, is_table
 
 __all__ = [
-    "BLANK", "DATES", "FRAME", "MJD_0", "Meaning", "Sheet", "checksum", "column_of",
-    "dates_of", "declared", "fits", "guessed", "is_frame", "is_number", "is_table",
-    "of_frame", "places", "refuse_other_meaning", "series_of", "split", "typed",
-    "with_words", "written",
+    "BLANK", "CHANGE", "DATES", "FEWEST", "FRAME", "MJD_0", "NEAR", "Meaning", "Sheet", "checksum",
+    "column_of", "dates_of", "declared", "fits", "guessed", "is_frame", "is_number", "is_table",
+    "of_frame", "places", "refuse_other_meaning", "series_of", "split", "typed", "with_words",
+    "written",
 ]  # fmt: skip

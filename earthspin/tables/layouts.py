@@ -56,6 +56,8 @@ C01_BY_YEAR = (
     TableLayout("c01", f"{_C01_YEAR}, ..."),
     TableLayout("c01", _C01_YEAR),
 )
+#: Layouts of the pole without a header, by the kind that names them.
+POLE_BY_KIND = {"c04": C04, "c01": (C01_BY_MJD, *C01_BY_YEAR)}
 #: Of the columns "type" of finals2000A, "I" if observed and "P" if predicted, the third belongs to
 #: dX, dY, here as in the CSV.
 FINALS2000A = TableLayout(

@@ -19,6 +19,10 @@ Misfit = Callable[[Columns], float]
 #: Misfit up to which no better meaning is looked for, and factor by which a meaning must be better:
 #: with a few rows near J2000.0, ages that are read as the future stay within the bounds.
 GOOD, BETTER = 0.1, 3.0
+#: Interval around J2000.0 in which solutions and orbits are compared, Julian years; fewest rows in
+#: it, since fewer do not tell the past from the future; and smallest change of a column, as a share
+#: of its bound, since constants fit times in any unit.
+NEAR, FEWEST, CHANGE = 20_000.0, 3, 0.1
 
 
 def refuse_other_meaning(
