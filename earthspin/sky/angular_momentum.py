@@ -70,15 +70,13 @@ class AngularMomentum:
         if edges.size < 2:
             raise SeriesError("excitation", "it covers no whole day", "omit daily")
         edges[[0, -1]] = np.clip(edges[[0, -1]], self.mjd[0], self.mjd[-1])
+        times = np.union1d(self.mjd, edges)
 
         def means(values: ComplexArray) -> ComplexArray:
-            pieces = np.diff(self.mjd) * (values[1:] + values[:-1]) / 2
+            samples = np.interp(times, self.mjd, values)
+            pieces = np.diff(times) * (samples[1:] + samples[:-1]) / 2
             total = np.concatenate([[0], np.cumsum(pieces)])
-            # The integral of a linear piece is a parabola.
-            row = np.clip(np.searchsorted(self.mjd, edges, side="right") - 1, 0, pieces.size - 1)
-            dt = edges - self.mjd[row]
-            slope = np.diff(values)[row] / np.diff(self.mjd)[row]
-            return np.asarray(np.diff(total[row] + dt * (values[row] + slope * dt / 2)))
+            return np.asarray(np.diff(total[np.searchsorted(times, edges)]))
 
         middles = np.asarray(np.round(edges[:-1]) + 0.5, dtype=float)
         return AngularMomentum(middles, means(self.mass), means(self.motion))
