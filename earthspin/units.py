@@ -249,8 +249,8 @@ class _Target:
         return UnitsError(str(self.where), value, self.unit or "a pure number", self.example)
 
     def refuse_mixed(self, values: Sequence[object]) -> None:
-        """Refuse numbers without a unit in a list of others that have one."""
-        if self.unit and is_bare(values):
+        """Refuse numbers without a unit, but zero, in a list of others that have one."""
+        if self.unit and _needs_unit(values):
             problem = f"numbers with and without a unit; give each its unit, like '{self.example}'"
             raise self.where.error(values, problem)
 
@@ -377,6 +377,13 @@ def is_bare(value: object) -> bool:
     if isinstance(value, (list, tuple)):
         return any(map(is_bare, value))
     return isinstance(value, (int, float)) and not isinstance(value, bool) and not has_unit(value)
+
+
+def _needs_unit(value: object) -> bool:
+    """Return True for a bare number other than zero, or for a list that contains one."""
+    if isinstance(value, (list, tuple)):
+        return any(map(_needs_unit, value))
+    return is_bare(value) and value != 0
 
 
 def is_masked(value: object) -> bool:

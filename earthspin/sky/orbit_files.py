@@ -29,13 +29,13 @@ from numpy.typing import ArrayLike
 
 from earthspin import tables
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
-from earthspin.errors import SeriesError, Where, nearest, no_plain_file
+from earthspin.errors import SeriesError, Where, no_plain_file
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.orbit_table import OrbitTable, fitted, load, shipped
 from earthspin.sky.poles import direction
 from earthspin.tables import BLANK, Meaning, Sheet
 from earthspin.tables.layouts import ORBITS
-from earthspin.units import real_numbers, time_scale
+from earthspin.units import Numbers, Word, time_scale
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -180,8 +180,8 @@ def read_orbit(
     where = Where("read_orbit")
     axes = _axes(frame, where)
     for word, allowed, name in ((time, TIMES, "time"), (angles, ANGLES, "angles")):
-        if word is not None and not (isinstance(word, str) and word in allowed):  # type: ignore[redundant-expr]
-            raise where.at(name).error(word, nearest(word, allowed))
+        if word is not None:
+            Word(allowed).read(word, where.at(name))
     if not isinstance(body, str):
         raise where.at("body").error(body, "give the name of a body, like 'mars'")
     if tables.is_frame(path):
@@ -320,14 +320,9 @@ def _others(meaning: list[Meaning]) -> Iterator[list[Meaning]]:
 
 def _axes(frame: object, where: Where) -> FloatArray:
     if isinstance(frame, str):
-        if frame not in FRAMES:
-            raise where.at("frame").error(frame, nearest(frame, FRAMES))
-        return axes_of(frame)
-    try:
-        axes = real_numbers(frame)
-    except (TypeError, ValueError):
-        axes = np.empty(0)
-    if axes.shape != (3, 3) or not np.allclose(axes @ axes.T, np.eye(3), rtol=0, atol=1e-9):
+        return axes_of(Word(FRAMES).read(frame, where.at("frame")))
+    axes = Numbers("", "1", (3, 3)).read(frame, where.at("frame"))
+    if not np.allclose(axes @ axes.T, np.eye(3), rtol=0, atol=1e-9):
         raise where.at("frame").error(frame, "give three unit vectors at right angles, as rows")
     return axes
 
