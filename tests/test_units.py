@@ -122,7 +122,7 @@ def test_units_of_the_names_of_pint() -> None:
 
 
 test_angles_beyond_a_turn_need_a_unit = refused(
-    (lambda: earthspin.EARTH.replace(pole=(266.86, 1.2)), "pole = 266.86: .* '266.86 deg'"),
+    (lambda: earthspin.EARTH.replace(pole=(266.86, 1.2)), "pole = 266.86 .* '266.86 deg'"),
     (lambda: earthspin.Body(name="x", gm=1e14, pole=(266.86, 1.2)), "'266.86 deg'"),
     (lambda: earthspin.MARS.replace(obliquity=25.19), "'25.19 deg'"),
     (lambda: earthspin.Orbit(a="1 au", mean_anomaly=-135.0), "'-135.0 deg'"),
