@@ -620,14 +620,17 @@ class Body(checks.Record, shapes.FromMass):
         if "pole" in changes or obliquity is not None:
             changes.setdefault("pole_uncertainty", None)
         uncertainties = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
+        if obliquity is not None and (self.pole is None or isinstance(self.pole, TiltedPole)):
+            equinox_of = getattr(self.pole, "equinox_of", None)
+            changes["pole"] = TiltedPole.at(self._checked_obliquity(obliquity), equinox_of)
         changed = _replace(self, **({"relative_uncertainty": uncertainties} | changes))
-        if obliquity is not None:
+        if obliquity is not None and "pole" not in changes:
             changed = changed._tilted(obliquity)
+        if changed.observed_wobble is None or "observed_wobble" in changes:
+            return changed
         affects_wobble = _WOBBLE_FIELDS & changes.keys()
         same = all(is_close(getattr(changed, n), getattr(self, n)) for n in affects_wobble)
-        if "observed_wobble" in changes or same:  # to 1 %
-            return changed
-        return _replace(changed, observed_wobble=None)
+        return changed if same else _replace(changed, observed_wobble=None)  # to 1 %
 
     def _with_elements(self, changes: dict[str, Any]) -> dict[str, Any]:
         """Join changes of elements, like "orbit.a", to changes of orbit, pole and satellites."""
@@ -655,15 +658,12 @@ class Body(checks.Record, shapes.FromMass):
         return whole
 
     def _tilted(self, obliquity: object) -> Body:
-        """Return a copy of the body with another obliquity and the same orbit normal."""
-        angle = self._checked_obliquity(obliquity)
-        if self.pole is None or isinstance(self.pole, TiltedPole):
-            equinox_of = getattr(self.pole, "equinox_of", None)
-            return _replace(self, pole=TiltedPole.at(angle, equinox_of))
-        pole = TiltedPole.at(angle, FixedPole.along(self.pole.mean(np.zeros(1))[0]))
-        normal = self.orbit_pole
-        if self.pole.of_the_iau:  # its orbit is the ecliptic, unless another is given
-            ecliptic = poles.OrbitNormal.along(self.pole.orbit_normal(None))
+        """Return a copy of the body, whose pole has an equinox, with another obliquity."""
+        before, normal = self.needed("pole"), self.orbit_pole
+        equinox_of = FixedPole.along(before.mean(np.zeros(1))[0])
+        pole = TiltedPole.at(self._checked_obliquity(obliquity), equinox_of)
+        if before.of_the_iau:  # its orbit is the ecliptic, unless another is given
+            ecliptic = poles.OrbitNormal.along(before.orbit_normal(None))
             normal = ecliptic if self.orbit is None else None
         return _replace(self, pole=pole, orbit_pole=normal)
 

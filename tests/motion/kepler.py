@@ -21,10 +21,12 @@ class Ellipse:
     def at(self, times: FloatArray) -> FloatArray:
         """Positions, shape (t, 3)."""
         e = self.eccentricity
-        anomaly, step = times + e * np.sin(times), np.ones_like(times)
-        while np.max(abs(step)) > 1e-14:  # the next step is below rounding
+        anomaly = times + e * np.sin(times)
+        for _ in range(60):
             step = (anomaly - e * np.sin(anomaly) - times) / (1 - e * np.cos(anomaly))
             anomaly = anomaly - step
+            if np.all(abs(step) < 1e-9):  # the next one is its square
+                break
         across = np.sqrt(1 - e * e) * np.sin(anomaly)
         return np.stack([np.cos(anomaly) - e, across, 0 * times], axis=-1)
 
