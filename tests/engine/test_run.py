@@ -12,21 +12,27 @@ import xarray as xr
 import earthspin
 from earthspin import Scene, SceneError, load_scene, scenes
 from earthspin.engine.run import Run
+from earthspin.numerics.arrays import FloatArray
 from earthspin.questions import averages, iau_comparison
 from earthspin.scenes import run, run_tree
 from earthspin.sky import ephemeris
-from earthspin.sky.poles import FixedPole
+from earthspin.sky.poles import Direction, FixedPole, PoleModel
 from tests.blocks import run_blocks
 
 
-class MyPole:
+class MyPole(PoleModel):
     """A fixed pole that its owner can change."""
 
-    of_the_iau = False
     declination = 0.0
 
-    def __getattr__(self, name: str) -> object:
-        return getattr(FixedPole(5.0, self.declination), name)
+    def at_epoch(self) -> FixedPole:
+        return FixedPole(5.0, self.declination)
+
+    def mean(self, days: FloatArray) -> FloatArray:
+        return self.at_epoch().mean(days)
+
+    def equator(self, orbit: Direction | None, *moving: object) -> FloatArray:
+        return self.at_epoch().equator(orbit)
 
 
 def opened_kernels(monkeypatch: pytest.MonkeyPatch) -> list[ephemeris.Ephemeris]:

@@ -62,7 +62,7 @@ def test_several_starts_at_once() -> None:
     ],
 )
 def test_a_polhode_without_a_period_has_no_advance(moments: list, omega: list) -> None:
-    from earthspin.views.rendering import drawings_for, tables_for
+    from earthspin.views.rendering import tables_for
 
     scene = Scene(compute="free-rotor", rotor={"moments": moments, "omega": omega, "times": TIMES})
     tree = earthspin.run_tree(scene)
@@ -75,7 +75,6 @@ def test_a_polhode_without_a_period_has_no_advance(moments: list, omega: list) -
     single = [table for table in tables_for(tree) if table.headers == ("quantity", "value")]
     rows = dict(row for table in single for row in table.rows)
     assert rows["period of the polhode, s"] == "infinite"
-    assert "does not come back" in drawings_for(tree)[1].caption
 
 
 def test_heavy_top_against_the_full_equations() -> None:
