@@ -72,7 +72,8 @@ def _faults_of(ax: Axes) -> Iterator[str]:
         elif not words.endswith(")"):
             yield f"the label of {name}, {words!r}, has its unit not in brackets at its end"
     for line in ax.lines:
-        if not np.all(np.isfinite(np.asarray(line.get_xydata(), dtype=float))):
+        drawn = ~np.ma.getmaskarray(line.get_ydata(orig=True))  # gaps on purpose are masked
+        if not np.all(np.isfinite(np.asarray(line.get_xydata(), dtype=float)[drawn])):
             yield f"the line {line.get_label()!r} has NaN"
     for dots in ax.collections:
         if np.ma.isMaskedArray(offsets := dots.get_offsets()) and np.ma.is_masked(offsets):

@@ -175,7 +175,7 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
     phase = fit.chandler_phase.values
     known = fit.chandler_amplitude.values > 2 * fit.chandler_amplitude_error.values
     ax.plot(time, phase, color=drawing.BLUE, lw=1, alpha=0.35)
-    ax.plot(time, np.where(known, phase, np.nan), color=drawing.BLUE, lw=1.6)
+    ax.plot(time, np.ma.masked_where(~known, phase), color=drawing.BLUE, lw=1.6)
     ax.set(xlabel="time (UTC)", ylabel="phase (deg)")
     return ax
 
@@ -261,7 +261,7 @@ def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
     drawing.band(
         ax, time, size, error, drawing.BLUE, alpha=0.2, lowest=0.0, lw=0.8, ls=":", zorder=2
     )
-    shown = np.where(detected, size, np.nan)
+    shown = np.ma.masked_where(~detected, size)
     ax.plot(time, shown, color=drawing.BLUE, lw=1.8, label="amplitude, detected")
     ax.plot(time, fit.detection_limit, color=drawing.GREY, lw=1, ls="--", label="detection limit")
     if not detected[-1]:

@@ -318,7 +318,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
         transfer = data.transfer_real.sel(rung=rung).values
         shown = inside & (np.abs(transfer - 1) < BEYOND)  # no line from pole to pole
         shown[:-1] &= np.diff(np.sign(frequency)) == 0  # nor through rest in space
-        drawn = np.where(shown, transfer, np.nan)
+        drawn = np.ma.masked_where(~shown, transfer)
         ax.plot(frequency, drawn, color=colour, lw=width, label=str(rung))
     ratio = (main.iau_in_phase / main.predicted_in_phase.sel(rung="rigid")).values
     at = DAYS_PER_YEAR / main.period.values
