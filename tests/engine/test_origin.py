@@ -33,7 +33,7 @@ OTHERS: dict[str, Callable[[xr.Dataset], xr.Dataset]] = {
     "one body": lambda data: data.sel(perturber="sun"),
     "mean": lambda data: data.mean("time", keep_attrs=True),
     "in other units": lambda data: data.map(lambda array: array * 1000, keep_attrs=True),
-    "other numbers": lambda data: data.assign(torque=data.torque + 1e22),
+    "other numbers": lambda data: data.assign(torque=data.torque.copy(data=data.torque + 1e22)),
 }
 
 
