@@ -40,6 +40,7 @@ for ax, (words, keys) in zip(axes, models.items(), strict=True):
     residuals = tree.earthspin.section("residuals")
     ax.plot(residuals.time, residuals.dpsi_sineps, lw=0.7, label="dψ sin ε")
     ax.plot(residuals.time, residuals.deps, lw=0.7, label="dε")
-    ax.set(title=words, ylabel="residual (mas)")
+    ax.set_title(words, loc="left")
+    ax.set_ylabel("residual (mas)")
 axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2)
 axes[1].set_xlabel("time (TDB)")
