@@ -47,7 +47,7 @@ def test_the_pole_of_a_file_in_mas() -> None:
 
 @pytest.mark.slow
 def test_ten_thousand_planets() -> None:
-    """Against 3 pi / (n2 H cos(eps)) of a circular orbit, in closed form."""
+    """Against 4 pi spin / (3 n2 H cos(eps)) of a circular orbit, in closed form."""
     names = done("engineer")
     rates = xr.open_dataset("planets.nc").precession_period.sel(perturber="total")
     assert rates.sizes == {"planet": 10_000}
