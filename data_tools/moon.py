@@ -2,8 +2,9 @@
 
     python -m data_tools moon FOLDER     (pip download --no-deps de421==2008.1, unpacked)
 
-For docs/rotation.md. The motion starts as by default, from a tabulated state and the motion since
-then, at dates that are not in the table. Differences are those of the Euler angles as arcs.
+For docs/rotation.md, with the angles of DE421 for the picture of its gallery. The motion starts as
+by default, from a tabulated state and the motion since then, at dates that are not in the table.
+Differences are those of the Euler angles as arcs.
 """
 
 from __future__ import annotations
@@ -21,7 +22,11 @@ from earthspin.motion.attitude_effects import ATTITUDE_EFFECTS
 from earthspin.motion.effects import EFFECTS, RIGID
 from earthspin.numerics.arrays import FloatArray
 
-PAGE = Path(__file__).parent.parent / "docs" / "measured" / "moon.inc"
+DOCS = Path(__file__).parent.parent / "docs"
+PAGE = DOCS / "measured" / "moon.inc"
+#: Table for a picture, of 18.6 years from 2008: first date, TDB Julian date, and interval, d.
+PICTURED = DOCS / "gallery" / "rotation" / "de421_librations.txt"
+PICTURED_FROM, PICTURED_YEARS, PICTURED_STEP = 2454466.5, 18.61, 10.0
 #: First dates, TDB Julian dates: 1955, 1969, 1985, 2010.
 STARTS = (2435173.5, 2440400.5, 2446066.5, 2455562.5)
 #: Spans, years, and interval of the dates, d.
@@ -40,11 +45,8 @@ HEAD = (
 )
 
 
-def differences(
-    librations: Librations, start: float, effects: tuple[str, ...], years: int
-) -> FloatArray:
+def differences(librations: Librations, jd: FloatArray, effects: tuple[str, ...]) -> FloatArray:
     """Angle and differences of phi sin(theta), theta and phi + psi, arcsec, shape (4, t)."""
-    jd = np.arange(start, min(start + years * DAYS_PER_YEAR, 2471000.0) + STEP, STEP)
     scene = earthspin.Scene(
         compute="rotation",
         times=datetime64(jd - J2000_JD),
@@ -62,12 +64,31 @@ def differences(
     return np.stack([np.sqrt(x * x + y * y + z * z), phi_sine, nutation, along])
 
 
+def dates(start: float, years: float, step: float) -> FloatArray:
+    """Julian dates of a span, within the kernel."""
+    end = min(start + years * DAYS_PER_YEAR, 2471000.0)
+    return np.asarray(np.arange(start, end + step, step))
+
+
+def write_pictured(librations: Librations) -> None:
+    """Write the angles of DE421 and, with each effect left out alone, the differences from them."""
+    jd = dates(PICTURED_FROM, PICTURED_YEARS, PICTURED_STEP)
+    columns, names = [jd, *librations.at(jd)[0].T], "TDB Julian date, phi, theta, psi (rad)"
+    for left_out in ATTITUDE_EFFECTS:
+        effects = tuple(name for name in ATTITUDE_EFFECTS if name != left_out)
+        columns.append(1e3 * differences(librations, jd, effects)[0])
+        names += f", without {left_out} (mas)"
+    formats = ["%.1f", *["%.11f"] * 3, *["%.4g"] * len(ATTITUDE_EFFECTS)]
+    np.savetxt(PICTURED, np.transpose(columns), fmt=formats, header=names)
+
+
 def main(folder: str) -> int:
-    """Measure, and write the table."""
+    """Measure, and write the table, and the angles for the picture."""
     librations = Librations(Path(folder))
+    write_pictured(librations)
     lines = []
     for words, (effects, longest) in CASES.items():
-        series = [differences(librations, start, effects, longest) for start in STARTS]
+        series = [differences(librations, dates(s, longest, STEP), effects) for s in STARTS]
         for years in (span for span in SPANS if span <= longest):
             rows = int(years * DAYS_PER_YEAR / STEP) + 1
             largest = np.max([np.abs(one[:, :rows]).max(axis=1) for one in series], axis=0)
