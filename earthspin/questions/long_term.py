@@ -531,10 +531,12 @@ def matrices(
 
 
 @part
-def neglected() -> Neglected:
+def neglected(body: Body, j2_rate: float | None) -> Neglected:
     """Effects on the long-term motion that are neither modelled nor included in the errors."""
+    unknown = j2_rate is None and body.j2_rate is None
     return Neglected(
-        what="friction between core and mantle, ice ages in the figure: not measured; asteroids "
+        what=f"{'change of J2 with time: not known; ' * unknown}"
+        "friction between core and mantle, ice ages in the figure: not measured; asteroids "
         "and the Sun's flattening in the orbit: in the errors of a shipped orbit, not in those of "
         "one that is given; past some fifty million years the orbit is chaotic"
     )

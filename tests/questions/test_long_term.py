@@ -322,3 +322,12 @@ def test_method_and_start_are_below_what_the_page_prints(years: float) -> None:
     shares = scenes.tree("long-term")["budget"].longitude_share.sel(epoch=-years)
     assert float(shares.sel(cause="method")) < 1e-5
     assert float(shares.sel(cause="start")) < (1e-5 if years < 1e6 else 6.5e-5)
+
+
+@pytest.mark.parametrize(
+    ("scene", "unknown"),
+    [({}, False), ({"body": "mars"}, True), ({"body": "mars", "j2_rate": "0 1/s"}, False)],
+)
+def test_a_rate_of_j2_that_is_not_known_is_named(scene: dict[str, str], unknown: bool) -> None:
+    answer = earthspin.long_term("-2 kyr", "0 kyr", "1 kyr", **scene)
+    assert ("J2" in answer.attrs["neglected"]) == unknown
