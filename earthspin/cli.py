@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import earthspin
 from earthspin._version import __version__
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, printable
+from earthspin.plug_ins import hide_array_libraries
 from earthspin.process import RESULTS, USAGE_ERROR, run_command
 from earthspin.views import PLAYS
 
@@ -89,6 +90,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     def command() -> None:
         _check_command(next((word for word in words if not word.startswith("-")), ""), parser)
         options = parser.parse_args(arguments)
+        cluster = {"workers", "scheduler"} & {name for name, set_ in vars(options).items() if set_}
+        if arguments is None and not cluster:
+            hide_array_libraries()
         options.command(options)
 
     words = sys.argv[1:] if arguments is None else arguments

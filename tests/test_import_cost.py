@@ -1,6 +1,7 @@
 """Only what a scene needs is loaded, shown in fresh processes."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -49,6 +50,32 @@ assert not any(name.endswith(".bsp") for name in opened)
 def test_answers_of_numpy_arrays_load_no_other_array_library(call: str) -> None:
     """Where xarray would look for arrays of dask and pint, it imports both."""
     assert not modules_after(f"import earthspin; earthspin.{call}()") & {"dask", "pint"}
+
+
+#: Commands, and what each alone of them needs.
+COMMANDS = {
+    "scenes": set(),
+    "run wobble": set(),
+    "run precession": {"jplephem", "skyfield"},
+    "run torque --out torque.nc": {"jplephem", "netCDF4"},
+}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_commands_load_only_what_they_use(
+    command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    program = f"""
+import sys
+from earthspin.cli import main
+sys.argv = ["earthspin", *{command.split()}]
+assert main() == 0
+for name in [name for name, module in sys.modules.items() if module is None]:
+    del sys.modules[name]
+"""
+    some = {"jplephem", "skyfield", "matplotlib", "netCDF4", "zarr", "dask", "distributed", "pint"}
+    assert modules_after(program) & some == COMMANDS[command]
 
 
 def test_the_observed_pole_needs_no_kernel() -> None:

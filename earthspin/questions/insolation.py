@@ -364,9 +364,10 @@ def averages(
 
 
 @part
-def neglected() -> Neglected:
+def neglected(body: Body, j2_rate: float | None) -> Neglected:
     """Effects on the insolation that are neither modelled nor included in the errors."""
-    return Neglected(what=f"changes of the Sun's brightness; {long_term.neglected().what}")
+    of_axis = long_term.neglected(body, j2_rate).what
+    return Neglected(what=f"changes of the Sun's brightness; {of_axis}")
 
 
 insolation = public_call(
