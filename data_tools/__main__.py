@@ -19,6 +19,7 @@ VERBS = {
     "coverage": "measure how often claimed errors contain independent results; names of topics",
     "neglected": "measure how far the response of the interior moves the axis of the Earth",
     "orbits": "make the tables of orbits over ten million years from a kernel (de440)",
+    "nutation": "make the table of nutation by IAU 2000A that is analysed",
     "librations": "make the table of states of the Moon from DE421's librations; folder of de421",
     "moon": "measure how far the rotation of the Moon is from DE421; folder of de421",
     "forecast": "measure the skill of the forecast of the pole, which the package ships",

@@ -35,13 +35,9 @@ if TYPE_CHECKING:
     from earthspin.nutation.response import Response
 
 
-#: Half of the span about J2000.0 that is analysed, as far as the kernel covers it: four periods of
-#: the node in each direction, over which slow changes are a short polynomial.
-HALF_SPAN = 27200.0  # d
 #: Shortest span that is analysed. Paths with the fitted response differ from IAU 2006/2000A by 0.7
 #: mas with 50 years of DE421, 1 to 3 mas with 45, 9 to 11 with 40 and 150 with 35.
 SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
-SAMPLING = 4.0  # d
 #: Reason why periods of terms have no error.
 ARGUMENTS = "it follows from the adopted arguments of IERS 2003"
 _SHARE = "share of the neighbour in the amplitude of IAU 2000A"
@@ -182,7 +178,8 @@ class WithInterior(AxisMotion):
         members = (self.body, *self.perturbers, *(BODIES[name] for name in PLANETS))
         if kernel is not None and kernel.holds(member.naif for member in members):
             codes = [kernel.code(member.naif, member.name) for member in members]
-            if analysed_days(kernel.coverage(codes))[1] < SHORTEST_SPAN:
+            first, last = analysed_span(kernel.coverage(codes))
+            if last - first < SHORTEST_SPAN:
                 return known
         return (*known, NONRIGID.name)
 
@@ -328,16 +325,13 @@ class IAUPole:
     circles: Circles
 
 
-def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
-    """Days on which nutation is analysed, within the known positions, and length of the span, d.
+def analysed_span(limits: tuple[float, float]) -> tuple[float, float]:
+    """Part of a span of known positions in which nutation is analysed, days from J2000.0.
 
-    Parameters
-    ----------
-    limits : tuple of float
-        First and last day from J2000.0 with known positions.
+    Over more than four periods of the node in each direction, slow changes are no short polynomial.
     """
-    days = np.arange(max(limits[0], -HALF_SPAN), min(limits[1], HALF_SPAN), SAMPLING)
-    return days, days.size * SAMPLING
+    first, *_, last = iau_models.SERIES_DAYS
+    return max(limits[0], first), min(limits[1], last + iau_models.SERIES_STEP)
 
 
 @part(
@@ -347,17 +341,17 @@ def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
 )
 def iau_pole(attractors: Attractors) -> IAUPole:
     """Separate the IAU pole over up to 150 years into a secular part and circular terms."""
-    days, covered = analysed_days((attractors.limits[0] / DAY, attractors.limits[1] / DAY))
-    if covered < SHORTEST_SPAN:
-        years, needed = (days * DAY / JULIAN_YEAR for days in (covered, SHORTEST_SPAN))
-        problem = f"the positions cover {years:.1f} years near J2000.0"
+    first, last = analysed_span((attractors.limits[0] / DAY, attractors.limits[1] / DAY))
+    if last - first < SHORTEST_SPAN:
+        years, needed = (days * DAY / JULIAN_YEAR for days in (last - first, SHORTEST_SPAN))
+        problem = f"the positions cover {max(years, 0.0):.1f} years near J2000.0"
         problem += f", and the analysis of nutation needs {needed:.0f}"
         raise UndefinedError(f"{problem}; give a longer ephemeris, or remove the effect nonrigid")
+    days, pole, original = iau_models.pole_and_nutation(first, last)
     arguments = iau_models.delaunay_arguments(days)
     analyse = PoleAnalysis(
         days, arguments, iau_models.delaunay_rates(), iau_models.fixed_ecliptic()
     )
-    pole, original = iau_models.pole_and_nutation(days)
     nutation = analysis.complex_nutation(iau_models.nutation_of(pole, days))
     circles = analyse.circles(analysis.complex_nutation(original))
     return IAUPole(days, nutation, analyse, analyse.secular(pole), circles)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -24,6 +25,12 @@ NUTATION_NODE_STEP = 1.0
 NODE_ERROR = 8e-12
 _SPLINE_DEGREE = 5
 _MARGIN = 4  # nodes beyond each end, for accuracy at the ends
+#: Nutation of IAU 2000A on the days from J2000.0 on which it is analysed, four periods of the node
+#: in each direction: rad, shape (2, n). `python -m data_tools nutation` writes the file; the sum of
+#: the series over these days takes most of a second.
+SERIES = Path(__file__).with_name("nutation.npy")
+SERIES_STEP = 4.0
+SERIES_DAYS = np.arange(-27200.0, 27200.0, SERIES_STEP)
 #: Terms of IAU 2000A: 678 luni-solar and 687 planetary ones.
 TERMS = 1365
 
@@ -106,23 +113,31 @@ def true_pole(days: FloatArray) -> FloatArray:
     return true_equator(days)[..., 2, :]
 
 
-def pole_and_nutation(days: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Pole of IAU 2006/2000A and nutation of IAU 2000A, from one evaluation of the series.
+def pole_and_nutation(first: float, last: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Pole of IAU 2006/2000A and nutation of IAU 2000A on those `SERIES_DAYS` that a span holds.
+
+    Parameters
+    ----------
+    first, last : float
+        Days from J2000.0; the last is not included.
 
     Returns
+    -------
+    days : ndarray, shape (n,)
     -------
     pole : ndarray, shape (n, 3)
         Unit vectors, bit-identical to those of `true_pole`.
     nutation : ndarray, shape (n, 2)
         Nutation in longitude and obliquity (`erfa.nut00a`), rad.
     """
-    psi, eps = erfa.nut00a(J2000_JD, days)
+    selected = (first <= SERIES_DAYS) & (last > SERIES_DAYS)
+    days, (psi, eps) = SERIES_DAYS[selected], np.load(SERIES)[:, selected]
     # IAU 2006 adjusts IAU 2000A to its obliquity and to its rate of J2 (`erfa.nut06a`).
     by_j2 = -2.7774e-6 * (days / DAYS_PER_CENTURY)
     gamma, phi, psi_bar, eps_bar = erfa.pfw06(J2000_JD, days)
     psi_true = psi_bar + (psi + psi * (0.4697e-6 + by_j2))
     matrix = erfa.fw2m(gamma, phi, psi_true, eps_bar + (eps + eps * by_j2))
-    return np.asarray(matrix[..., 2, :]), np.stack([psi, eps], axis=-1)
+    return days, np.asarray(matrix[..., 2, :]), np.stack([psi, eps], axis=-1)
 
 
 def delaunay_arguments(days: FloatArray) -> FloatArray:

@@ -81,8 +81,12 @@ def test_nutation_of_the_true_pole_is_that_of_the_model() -> None:
     )
 
 
-def test_one_sum_gives_pole_and_nutation_to_the_bit() -> None:
-    days = np.linspace(-40000.0, 40000.0, 50)
-    pole, nutation = iau_models.pole_and_nutation(days)
-    assert np.array_equal(pole, erfa.pnm06a(2451545.0, days)[..., 2, :])
-    assert np.array_equal(nutation, np.stack(erfa.nut00a(2451545.0, days), axis=-1))
+def test_the_shipped_series_is_that_of_the_model() -> None:
+    days, pole, nutation = iau_models.pole_and_nutation(-7001.0, 6999.0)
+    assert days.size == 3500
+    assert days[[0, 1, -1]].tolist() == [-7000.0, -6996.0, 6996.0]
+    assert np.allclose(pole, erfa.pnm06a(2451545.0, days)[..., 2, :], rtol=0, atol=1e-17)
+    expected = np.stack(erfa.nut00a(2451545.0, days), axis=-1)
+    assert np.allclose(nutation, expected, rtol=0, atol=1e-19)
+    everywhere, *_ = iau_models.pole_and_nutation(-np.inf, np.inf)
+    assert np.array_equal(everywhere, iau_models.SERIES_DAYS)
