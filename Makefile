@@ -73,6 +73,7 @@ bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/call_overhead.py
 	$(BIN)/python tests/benchmarks/ensemble.py
 	$(BIN)/python -m tests.benchmarks.repeated
+	$(BIN)/python -m tests.benchmarks.first_calls
 	$(BIN)/python -m tests.benchmarks.earth_rotation
 	$(BIN)/python -m tests.benchmarks.how_large
 
