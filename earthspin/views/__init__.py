@@ -3,7 +3,7 @@
 from earthspin._lazy import submodule
 
 #: Interactive pages, named after their templates.
-PLAYS = ("precession", "rotor", "top", "wobble")
+PLAYS = ("precession", "rotor", "sunlight", "top", "wobble")
 
 
 def __getattr__(name: str) -> object:

@@ -16,12 +16,12 @@ import numpy as np
 from earthspin._version import __version__
 from earthspin.bodies import EARTH, MOON, SUN, Body
 from earthspin.bodies.planets import MOON_ECCENTRICITY, MOON_INCLINATION, SUN_ECCENTRICITY
-from earthspin.constants import ARCSEC_PER_YEAR, DAY
+from earthspin.constants import ARCSEC_PER_YEAR, DAY, SOLAR_CONSTANT
 from earthspin.engine import atomic_writes
 from earthspin.errors import SceneError
 from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import INTERIORS
-from earthspin.scenes import run, run_tree
+from earthspin.scenes import load_scene, run, run_tree
 from earthspin.views import PLAYS
 from earthspin.views.page import rendered, source
 from earthspin.wobble.ladder import Rotator, inputs_of, love_radius
@@ -82,17 +82,41 @@ def _interior() -> dict[str, object]:
     }
 
 
+#: Years from J2000.0 whose orbits the page on sunlight offers, and their names.
+ORBITS = {
+    0: "today",
+    -9_000: "9 kyr ago: early Holocene",
+    -21_000: "21 kyr ago: last glacial maximum",
+    -116_000: "116 kyr ago: glacial inception",
+    -125_000: "125 kyr ago: last interglacial",
+}
+
+
+def _sunlight() -> dict[str, object]:
+    """Solar constant, and elements of the Earth's orbit today and in the past (deg)."""
+    past = run(load_scene("long-term", {"times": [f"{year} yr" for year in ORBITS]}))
+    names = ("obliquity", "eccentricity", "longitude_of_perihelion")
+    rows = zip(*(past[name].values for name in names), strict=True)
+    return {
+        "solarConstant": SOLAR_CONSTANT.value,
+        "epochs": [
+            {"words": words, "obliquity": tilt, "eccentricity": e, "perihelion": perihelion % 360}
+            for words, (tilt, e, perihelion) in zip(ORBITS.values(), rows, strict=True)
+        ],
+    }
+
+
 #: Functions that return the numbers from which the script of a page starts, if it needs any.
-NUMBERS = {"precession": _sky, "wobble": _interior}
+NUMBERS = {"precession": _sky, "sunlight": _sunlight, "wobble": _interior}
 
 
 def play_page(name: str) -> str:
-    """HTML text of the interactive page on precession, on rotors, on tops or on the wobble.
+    """HTML text of the interactive page on one of the topics of `PLAYS`.
 
     Parameters
     ----------
     name : str
-        ``"precession"``, ``"rotor"``, ``"top"`` or ``"wobble"``.
+        ``"precession"``, ``"rotor"``, ``"sunlight"``, ``"top"`` or ``"wobble"``.
 
     Returns
     -------

@@ -2,14 +2,15 @@
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import unescape
 from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
-from earthspin import EARTH
+from earthspin import EARTH, daily_insolation
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.errors import UndefinedError
 from earthspin.interior.layers import PREM
@@ -250,15 +251,66 @@ def test_the_wobble_is_the_librarys(browser: str, tmp_path: Path) -> None:
             assert one[name] == pytest.approx(float(turns), rel=SIX_DIGITS, abs=0), name
 
 
+def by_library(case: Mapping[str, float], **key: str) -> float:
+    """Mean insolation (W/m2) of one setting of the page on sunlight (deg), by the library."""
+    elements = {
+        "obliquity": case["obliquity"],
+        "eccentricity": case["eccentricity"],
+        "longitude_of_perihelion": case["perihelion"],
+    }
+    orbit = xr.Dataset(
+        {name: ("epoch", [value]) for name, value in elements.items()}, {"epoch": [0]}
+    )
+    for name in ("obliquity", "longitude_of_perihelion"):
+        orbit[name].attrs["units"] = "deg"
+    latitude = f"{case['latitude']} deg"
+    answer = daily_insolation(orbit, latitude, solar_constant="1361 W/m2", **key)
+    return float(answer["annual_mean" if "mean" in key else "insolation"].item())
+
+
+SUNLIGHT = {
+    "obliquity": (0.0, 90.0),
+    "eccentricity": (0.0, 0.3),
+    "perihelion": (0.0, 360.0),
+    "latitude": (-90.0, 90.0),
+    "season": (0.0, 360.0),
+}
+
+
+def test_sunlight_is_the_librarys(browser: str, tmp_path: Path) -> None:
+    cases: list[dict] = [
+        {name: between(*ends) for name, ends in SUNLIGHT.items()} for _ in range(SETTINGS)
+    ]
+    for case, latitude in zip(cases, (90.0, -90.0, 0.0), strict=False):
+        case["latitude"] = latitude
+    call = """(() => {
+      const rad = (name) => (c[name] * Math.PI) / 180, eccentricity = c.eccentricity;
+      const [obliquity, perihelion] = ["obliquity", "perihelion"].map(rad);
+      const { at, year } = formulas.insolation({ obliquity, eccentricity, perihelion });
+      return { day: at(rad("season"))(rad("latitude")), year: year(rad("latitude")) };
+    })()"""
+    for case, one in zip(cases, computed(browser, tmp_path, call, cases), strict=True):
+        day = by_library(case, longitude=f"{case['season']} deg") / 1361
+        year = by_library(case, mean="year") / 1361
+        assert one["day"] == pytest.approx(day, rel=0, abs=1e-13)  # measured: 2e-15
+        # measured: 4e-9, from the edges of polar day and night between the steps of the sum
+        assert one["year"] == pytest.approx(year, rel=0, abs=1e-7)
+
+
 # --- the pages -----------------------------------------------------------------------------------
 
 #: A slider, where it is moved to, and the reading to be told.
 MOVED = {
     "precession": ("mass", 0, "once round in"),
     "rotor": ("x", 1.5, "period of the polhode"),
+    "sunlight": ("eccentricity", 0.1, "insolation"),
     "top": ("spin", 150, "mean precession"),
     "wobble": ("k2", 0.2, "elastic mantle"),
 }
+
+
+#: Pages without motion.
+STILL = ("sunlight", "wobble")
 
 
 def played(browser: str, folder: Path, name: str, script: str) -> dict:
@@ -317,6 +369,10 @@ def expected(name: str) -> Iterator[float]:
                 spin=spin,
             )
             yield float(mean_precession_rate(top, nutation_of(top)))
+    elif name == "sunlight":
+        case = {**given["epochs"][1], "latitude": 65.0}
+        for e in (case["eccentricity"], 0.1):
+            yield by_library({**case, "eccentricity": e}, longitude="90 deg")
     else:
         e = EARTH.dynamical_flattening / (1 - EARTH.dynamical_flattening)
         for k2 in (given["k2"], 0.2):
@@ -381,7 +437,7 @@ def test_the_planet_has_its_own_moments(browser: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name in PLAYS if name != "wobble"])
+@pytest.mark.parametrize("name", [name for name in PLAYS if name not in STILL])
 def test_a_page_is_played_by_clock_and_keys(browser: str, name: str, tmp_path: Path) -> None:
     told = played(
         browser,
@@ -426,3 +482,84 @@ def test_a_page_is_one_file_and_no_wider_than_a_phone(
     assert "http" not in page
     assert not re.search(r"(?:src|href)\s*=\s*\"", page)
     assert title_on_a_phone(browser, tmp_path, page, "document.title = wide;") == "390"
+
+
+@pytest.mark.slow
+def test_readings_of_sunlight_are_the_librarys(browser: str, tmp_path: Path) -> None:
+    cases = [{name: between(*ends) for name, ends in SUNLIGHT.items()} for _ in range(5)]
+    told = played(
+        browser,
+        tmp_path,
+        "sunlight",
+        f"""{READ}
+        told.cases = {json.dumps(cases)}.map((settings) => {{
+          for (const [name, value] of Object.entries(settings)) {{
+            const slider = document.getElementById(name);
+            slider.value = value;
+            slider.dispatchEvent(new Event("input"));
+          }}
+          const shown = Object.keys(settings).map((name) =>
+            [name, document.getElementById(name).getAttribute("aria-valuetext")]);
+          const day = ["insolation", "difference from today"];
+          const words = [...day, "annual mean", "annual mean, difference"];
+          return {{ shown: Object.fromEntries(shown), told: words.map(read) }};
+        }});
+        """,
+    )
+    today = NUMBERS["sunlight"]()["epochs"][0]
+    for one in told["cases"]:
+        case = {name: first_number(words) for name, words in one["shown"].items()}
+        then = {
+            **case,
+            **{name: today[name] for name in ("obliquity", "eccentricity", "perihelion")},
+        }
+        day, year = {"longitude": f"{case['season']} deg"}, {"mean": "year"}
+        numbers = [(by_library(case, **key), by_library(then, **key)) for key in (day, year)]
+        expected = [value for now, past in numbers for value in (now, now - past)]
+        # six digits are shown, five of a difference (at most 5e-5 of it)
+        assert [first_number(words) for words in one["told"]] == pytest.approx(
+            expected, rel=5e-5, abs=1e-3
+        )
+
+
+@pytest.mark.slow
+def test_sunlight_is_chosen_on_the_map_and_by_keyboard(browser: str, tmp_path: Path) -> None:
+    told = played(
+        browser,
+        tmp_path,
+        "sunlight",
+        """
+        const picture = document.getElementById("picture");
+        const { width, height } = picture.getBoundingClientRect();
+        const value = (name) => Number(document.getElementById(name).value);
+        const click = (offsetX, offsetY) => {
+          const event = new MouseEvent("click");
+          for (const [name, value] of Object.entries({ offsetX, offsetY }))
+            Object.defineProperty(event, name, { value });
+          picture.dispatchEvent(event);
+        };
+        const [left, right] = [46, width - 66];
+        click(0.25 * left + 0.75 * right, 26 + (height - 78) / 2 / 4);
+        told.place = [value("season"), value("latitude")];
+        click(2, 2);
+        told.same = value("season") === told.place[0];
+        const controls = [...document.querySelectorAll("input, select, button")];
+        const named = (e) => (e.labels?.[0] ?? e).textContent.trim() !== "";
+        told.reached = controls.every((e) => e.tabIndex === 0 && named(e));
+        told.requests = performance.getEntriesByType("resource").length;
+        """,
+    )
+    assert told["place"] == pytest.approx([270, 45], rel=0, abs=1)
+    assert told["same"]
+    assert told["reached"]
+    assert told["requests"] == 0
+
+
+@pytest.mark.slow
+def test_sunlight_is_printed_with_its_maps(browser: str, tmp_path: Path) -> None:
+    page, printed = tmp_path / "sunlight.html", tmp_path / "sunlight.pdf"
+    page.write_text(play_page("sunlight"), encoding="utf-8")
+    opened(browser, page, tmp_path, f"--print-to-pdf={printed}")
+    # the maps are wide enough for paper
+    widths = [int(n) for n in re.findall(rb"/Width (\d+)", printed.read_bytes())]
+    assert max(widths) > 400

@@ -254,5 +254,30 @@ const formulas = (() => {
     return { ...found, anelastic: turns };
   }
 
-  return { precession, rotor, top, wobble, jacobi, complete, incomplete };
+  // --- sunlight -------------------------------------------------------------------------------------
+
+  // Daily insolation of an orbit as a fraction of the solar constant (Berger 1978). `at` takes the
+  // true longitude of the Sun and gives a function of the latitude; `year` is the mean over time.
+  function insolation({ obliquity, eccentricity, perihelion }) {
+    const room = 1 - eccentricity ** 2;
+    const light = (sine) => (latitude) => {
+      const polar = Math.sin(latitude) * sine, across = Math.cos(latitude) * Math.sqrt(1 - sine * sine);
+      const half = Math.acos(Math.max(-1, Math.min(1, -polar / Math.max(across, 1e-300))));
+      return (half * polar + across * Math.sin(half)) / Math.PI;
+    };
+    const declination = (longitude) => Math.sin(obliquity) * Math.sin(longitude);
+    const at = (longitude) => {
+      const near = ((1 - eccentricity * Math.cos(longitude - perihelion)) / room) ** 2, there = light(declination(longitude));
+      return (latitude) => near * there(latitude);
+    };
+    // The time at a longitude is inverse to the closeness, so that the perihelion does not count.
+    const year = (latitude, steps = 4000) => {
+      let sum = 0;
+      for (let i = 0; i < steps; i++) sum += light(declination((2 * Math.PI * (i + 0.5)) / steps))(latitude);
+      return sum / steps / Math.sqrt(room);
+    };
+    return { at, year };
+  }
+
+  return { precession, rotor, top, wobble, insolation, jacobi, complete, incomplete };
 })();
