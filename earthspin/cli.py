@@ -149,7 +149,7 @@ def _parser() -> ArgumentParser:
     add("--sections", metavar="NAMES|all", help=words)
     words = "columns of a .csv file, each with its errors (default: those most used)"
     add("--columns", metavar="NAMES|all", help=words)
-    words = "units of columns of a .csv file, e.g. x=mas,epoch=kyr"
+    words = "units of columns of a .csv file, e.g. x=mas,epoch='kyr BP'"
     add("--units", metavar="NAME=UNIT,...", default="", help=words)
     words = "angles of a .csv file that are given from 0 to one turn"
     add("--wrap", metavar="NAMES", default="", help=words)

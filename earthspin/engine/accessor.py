@@ -22,7 +22,7 @@ from earthspin.engine.question import ALL, names_in
 from earthspin.engine.variables import from_si, places, texts_as_columns, with_units_of_answers
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.numerics import sampling
-from earthspin.units import as_written, quantity, real_numbers
+from earthspin.units import as_written, quantity, real_numbers, time_scale
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -155,7 +155,8 @@ class Answer:
             Section to take in place of the answer; it is computed if it is missing.
         units : mapping of str to str, optional
             Other units of variables and labels, such as ``{"x": "mas", "epoch": "kyr"}``; errors
-            have the unit of their variable.
+            have the unit of their variable. Epochs also count backwards from 1950 (``"kyr BP"``) or
+            from 2000 (``"ka"``).
         wrap : str or sequence of str
             Angles that wind up, such as ``"longitude_of_perihelion"``, to give from 0 to one turn.
 
@@ -215,10 +216,14 @@ class Answer:
                 known = ", ".join(c for c in unit_of if unit_of[c] != "1")
                 raise SceneError("units", name, f"columns with a unit: {known}")
             was = unit_of[changed[0]]
-            factor = quantity(f"1 {unit}", was, Where(f"units of {name}"), f"1 {was}")
+            scale = time_scale(unit) if (name, was) == ("epoch", "yr") else None
+            where = Where(f"units of {name}")
+            factor, origin = scale or (quantity(f"1 {unit}", was, where, f"1 {was}"), 0.0)
             changed += [c for c in names if c.startswith(name + _ERROR)]
             for column in (c for c in changed if unit_of[c] == was):
-                frame[column], unit_of[column] = as_written(frame[column], 1 / factor), unit
+                # adding zero leaves no -0.0
+                frame[column] = as_written(frame[column], 1 / factor, -origin / factor) + 0.0
+                unit_of[column] = unit
         frame.attrs["units"] = unit_of
         return frame
 
