@@ -227,7 +227,7 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
     if isinstance(path, GivenSeries):
         return None
     file = file_of(path)
-    sheet, table = pole_tables.split(file, None, None, partial(_observed, POLAR_MOTION))
+    sheet, table = pole_tables.split(file, None, None, partial(observed, POLAR_MOTION))
     if not table.name.startswith("finals2000A"):
         return None
     sheet = pole_tables.observed(sheet, table, POLAR_MOTION, predicted=True)
@@ -274,7 +274,7 @@ def _of_given(given: GivenSeries, pair: Coordinates) -> _Parsed:
     if pair is POLAR_MOTION:
         sheet = Sheet(tables.FRAME, "", ["x", "y"], [1e3 * rows[:, 2], 1e3 * rows[:, 3]])
         meaning = pole_tables.PoleColumns(_GIVEN, [Meaning("x", "mas"), Meaning("y", "mas")])
-        pole_tables.check(sheet, meaning, rows[:, 1], _observed(pair))
+        pole_tables.check(sheet, meaning, rows[:, 1], observed(pair))
     return _GIVEN, rows, tuple(repairs)
 
 
@@ -283,12 +283,12 @@ def _of_file(
     file: Path, sha256: str, kind: str | None, columns: str | None, pair: Coordinates
 ) -> _Parsed:
     """Rows of a file with a checksum; results are cached."""
-    sheet, table = pole_tables.split(file, kind, columns, partial(_observed, POLAR_MOTION))
+    sheet, table = pole_tables.split(file, kind, columns, partial(observed, POLAR_MOTION))
     rows = pole_tables.rows_of(sheet := pole_tables.observed(sheet, table, pair), table, pair)
     repairs: list[str] = []
     complete = checks.complete(file, rows, sheet.text, repairs)
-    if pair is POLAR_MOTION and not _is_carried(file):
-        pole_tables.check(sheet, table, rows[:, 1], _observed(pair))
+    if pair is POLAR_MOTION and not is_carried(file):
+        pole_tables.check(sheet, table, rows[:, 1], observed(pair))
     return table.name, complete, tuple(repairs)
 
 
@@ -302,7 +302,7 @@ def _checked(file: Path | str, parsed: _Parsed, pair: Coordinates, span: _Interv
         remedy = "is it complete?" if pair is POLAR_MOTION else NOT_IAU_1980
         raise SeriesError(file, f"it holds {len(observed)} rows of {pair.name}", remedy)
     checks.check_size(file, observed, pair, name)
-    if pair is POLE_OFFSETS and not _is_carried(file):
+    if pair is POLE_OFFSETS and not is_carried(file):
         _check_model(file, observed)
     ordered = checks.in_order(file, observed, repairs)
     filled = len(observed) < int(np.sum(rows[:, 1] >= ordered[0, 1]))
@@ -323,13 +323,13 @@ def _series(even: FloatArray, name: str, repairs: list[str]) -> PoleSeries:
 # --- comparison with finals2000A ------------------------------------------------------------------
 
 
-def _is_carried(file: object) -> bool:
+def is_carried(file: object) -> bool:
     """Return True if a file is one that astropy includes."""
     return file in [file_of(name) for name in CARRIED]
 
 
 @cache
-def _observed(pair: Coordinates) -> FloatArray:
+def observed(pair: Coordinates) -> FloatArray:
     """Modified Julian dates, and both coordinates of finals2000A, arcsec, shape (3, n)."""
     finals = _read("finals", pair, None, None, ALL)
     return np.array([finals.mjd, finals.x / ARCSEC, finals.y / ARCSEC])
@@ -341,7 +341,7 @@ def _check_model(file: object, rows: FloatArray) -> None:
     The size alone does not show the model: offsets from IAU 1980 stay below 20 mas until 1991, and
     the oldest of those from IAU 2006/2000A reach 9 mas.
     """
-    off = pole_tables.differences(rows[:, 1], rows[:, 2:4].T, _observed(POLE_OFFSETS))
+    off = pole_tables.differences(rows[:, 1], rows[:, 2:4].T, observed(POLE_OFFSETS))
     distance = np.max(abs(off), axis=0)
     suspect = np.max(abs(rows[:, 2:4]), axis=1) > _LARGEST_ELSEWHERE
     wrong = suspect & ~(distance <= _ANOTHER_MODEL)

@@ -31,6 +31,8 @@ NAMES: dict[str, tuple[str, ...]] = {
     "e_y": ("sigma_y", "sigma_y_pole", "e_y", "y_error", "e_pm_y", "y-err", "y_er", "ysig"),
     "e_dx": ("sigma_dx", "e_dx", "dx_error", "dx_er", "e_dx_2000a"),
     "e_dy": ("sigma_dy", "e_dy", "dy_error", "dy_er", "e_dy_2000a"),
+    "ut1": ("ut1-utc", "ut1_utc"), "e_ut1": ("sigma_ut1-utc", "e_ut1_utc"),
+    "lod": ("lod",), "e_lod": ("sigma_lod", "e_lod"),
 }  # fmt: skip
 #: Name of a table whose columns are named by the user or by a header that nobody publishes.
 NAMED = "named columns"
@@ -106,13 +108,15 @@ def _by_names(sheet: Sheet, kind: str | None) -> PoleColumns | None:
     places = tables.places(sheet.file, sheet.names, NAMES)
     dates = tables.places(sheet.file, sheet.names, tables.DATES)
     dated = {"mjd", "jd", "date", "year"} & {*dates}
-    if not (dated and {"x", "y", "dx", "dy"} & {*places}):
+    if not (dated and {"x", "y", "dx", "dy", "ut1"} & {*places}):
         return None
     columns = [Meaning("type") if "type" in n.lower() else BLANK for n in sheet.names]
     final = any("final" in column for column in sheet.cells)
     for quantity, place in places.items():
-        unit = "mas" if final and quantity in ("dx", "dy", "e_dx", "e_dy") else "arcsec"
-        columns[place] = Meaning(quantity, tables.column_of(sheet.names[place]).unit or unit)
+        unit = ("s", "ms") if "ut1" in quantity or "lod" in quantity else ("arcsec", "mas")
+        thousandths = final and quantity.removeprefix("e_") in ("dx", "dy", "lod")
+        own = tables.column_of(sheet.names[place]).unit
+        columns[place] = Meaning(quantity, own or unit[thousandths])
     for quantity, place in dates.items():
         columns[place] = Meaning(quantity)
     names = {NAMED: True, "c04.csv": "x_pole" in sheet.names, "EOP-All.csv": "DAT" in sheet.names}
@@ -167,23 +171,33 @@ def observed(sheet: Sheet, table: PoleColumns, pair: Coordinates, predicted: boo
         problem = f"a table {table.name} of {sheet.width} columns holds no {pair.words}"
         by_year = "take one of 11 columns, or by MJD, of 29"
         raise sheet.error(problem, by_year if table.name == "c01" else AS_PANDAS)
-    flags = [place for place, name in enumerate(names) if name == "type"]
-    flag = flags[pair.flag % len(flags)] if flags else None
-    if flag is not None and any(map(str.strip, sheet.cells[flag])):
+    if flags := flags_of(sheet, table, pair.flag):
         kept = ("P", "p") if predicted else ("I", "f", "O")  # "P", "prediction"; "I", "final"
-        sheet = sheet.only(cell.startswith(kept) for cell in sheet.cells[flag])
+        sheet = sheet.only(cell.startswith(kept) for cell in flags)
     both = zip(sheet.cells[names.index(x)], sheet.cells[names.index(y)], strict=True)
     sheet = sheet.only(any(map(str.strip, pair)) for pair in both)  # dates alone are no rows
-    if sheet.layout and sheet.layout.edges:
-        error = names.index(f"e_{y}")
-        begin, end = sheet.layout.edges[error]
-        short = [len(cell) < end - begin for cell in sheet.cells[error]]
-        if any(short):
-            raise sheet.error("it ends early", "is the file cut off?", short.index(True))
+    refuse_cut_off(sheet, names, f"e_{y}")
     if table.name == "EOP2":
         late = tables.dates_of(sheet, table.columns) > _last_observed(sheet, pair)
         sheet = sheet.only(~late)
     return sheet
+
+
+def flags_of(sheet: Sheet, table: PoleColumns, number: int) -> Sequence[str]:
+    """Cells of the column "type" of that number, or of the last; empty if none marks rows."""
+    flags = [place for place, column in enumerate(table.columns) if column.quantity == "type"]
+    cells = sheet.cells[flags[number % len(flags)]] if flags else ()
+    return cells if any(map(str.strip, cells)) else ()
+
+
+def refuse_cut_off(sheet: Sheet, names: Sequence[str], last: str) -> None:
+    """Refuse a row of fixed columns that ends before the end of the last one that is needed."""
+    if sheet.layout and sheet.layout.edges:
+        place = names.index(last)
+        begin, end = sheet.layout.edges[place]
+        short = [len(cell) < end - begin for cell in sheet.cells[place]]
+        if any(short):
+            raise sheet.error("it ends early", "is the file cut off?", short.index(True))
 
 
 def _last_observed(sheet: Sheet, pair: Coordinates) -> float:

@@ -13,10 +13,10 @@ from typing import NamedTuple
 from earthspin.errors import SeriesError
 from earthspin.units import COMMON, time_scale
 
-#: Names in a table for units, and units of angles that are no units of `units.COMMON`: the unit of
+#: Names in a table for units, and units that are none of `units.COMMON`: the unit of
 #: which they are a multiple, and the factor.
 _SPELLINGS = {'"': "arcsec", "''": "arcsec", "as": "arcsec", "degrees": "deg", "radians": "rad"}
-_MULTIPLES = {"uas": ("mas", 1e-3), "0.1 arcsec": ("arcsec", 0.1)}
+_MULTIPLES = {"uas": ("mas", 1e-3), "0.1 arcsec": ("arcsec", 0.1), "ms": ("s", 1e-3)}
 #: End of a declaration that stands for any more columns.
 MORE = "..."
 

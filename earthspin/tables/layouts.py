@@ -39,15 +39,16 @@ class TableLayout(NamedTuple):
 
 _XY, _DXY = "x (arcsec), y (arcsec)", "dx (arcsec), dy (arcsec)"
 _ERRORS, _OFFSET_ERRORS = "e_x (arcsec), e_y (arcsec)", "e_dx (arcsec), e_dy (arcsec)"
+_DAY, _DAY_ERRORS = "ut1 (s), lod (s)", "e_ut1 (s), e_lod (s)"
 _IVS = f"mjd, {_XY},, {{offsets}}, {_ERRORS},, {{errors}}, ..."
 _C01_YEAR = "year, x (arcsec), e_x (arcsec), y (arcsec), e_y (arcsec)"
 #: Tables by Besselian years and of C04 without a header, told apart by their first cell.
 C04 = (
-    TableLayout("c04", f"year, month, day, mjd, {_XY},,, {_DXY}, {_ERRORS},,, {_OFFSET_ERRORS}"),
-    TableLayout(
-        "c04", f"year, month, day, hour, mjd, {_XY},, {_DXY},,,, {_ERRORS},, {_OFFSET_ERRORS},,,"
-    ),
-)
+    TableLayout("c04", f"year, month, day, mjd, {_XY}, {_DAY}, {_DXY}, {_ERRORS}, {_DAY_ERRORS}, "
+                f"{_OFFSET_ERRORS}"),
+    TableLayout("c04", f"year, month, day, hour, mjd, {_XY}, ut1 (s), {_DXY},,, lod (s), "
+                f"{_ERRORS}, e_ut1 (s), {_OFFSET_ERRORS},,, e_lod (s)"),
+)  # fmt: skip
 C01_BY_MJD = TableLayout(
     "c01", f"mjd, {_XY},, {_DXY}, {_ERRORS},, {_OFFSET_ERRORS},,,,,,,,,,,,,,,,,,"
 )
@@ -58,16 +59,17 @@ C01_BY_YEAR = (
 )
 #: Layouts of the pole without a header, by the kind that names them.
 POLE_BY_KIND = {"c04": C04, "c01": (C01_BY_MJD, *C01_BY_YEAR)}
-#: Of the columns "type" of finals2000A, "I" if observed and "P" if predicted, the third belongs to
-#: dX, dY, here as in the CSV.
+#: Of the columns "type" of finals2000A, "I" if observed and "P" if predicted, the second belongs to
+#: UT1 and the third to dX, dY, here as in the CSV.
 FINALS2000A = TableLayout(
     "finals2000A",
-    "year, month, day, mjd, type, x (arcsec), e_x (arcsec), y (arcsec), e_y (arcsec), type, type, "
-    "dx (mas), e_dx (mas), dy (mas), e_dy (mas)",
+    "year, month, day, mjd, type, x (arcsec), e_x (arcsec), y (arcsec), e_y (arcsec), type, "
+    "ut1 (s), e_ut1 (s), lod (ms), e_lod (ms), type, dx (mas), e_dx (mas), dy (mas), e_dy (mas)",
     row=r".{16}[IP]|[\d ]{6} \d{5}\.\d\d\s*$",
     edges=(
         (0, 2), (2, 4), (4, 6), (7, 15), (16, 17), (18, 27), (27, 36), (37, 46), (46, 55), (57, 58),
-        (95, 96), (97, 106), (106, 115), (116, 125), (125, 134),
+        (58, 68), (68, 78), (79, 86), (86, 93), (95, 96), (97, 106), (106, 115), (116, 125),
+        (125, 134),
     ),
 )  # fmt: skip
 _EOP2 = (
