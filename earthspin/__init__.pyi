@@ -339,6 +339,33 @@ def pole_offsets(
     window: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...
+def length_of_day(
+    start: Date | None = ...,
+    stop: Date | None = ...,
+    step: Value | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
+    ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
+    times: Dates | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+) -> xr.Dataset: ...
+def observed_day(
+    start: Date | None = ...,
+    stop: Date | None = ...,
+    *,
+    span: tuple[Date, Date] | SkyfieldTime | None = ...,
+    file: str | PathLike[str] | None = ...,
+    columns: str | None = ...,
+    tides: Literal["left in", "taken out"] | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+) -> xr.Dataset: ...
 def forecast(
     days: Value | None = ...,
     step: Value | None = ...,
@@ -433,10 +460,12 @@ __all__ = [
     "free_rotor",
     "heavy_top",
     "insolation",
+    "length_of_day",
     "load_scene",
     "long_term",
     "love_numbers",
     "nutation_ladder",
+    "observed_day",
     "plan",
     "polar_motion",
     "polar_motion_from",

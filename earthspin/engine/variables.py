@@ -37,6 +37,7 @@ FROM_SI: dict[str, float] = {
     "mas": 1 / MAS,
     "deg": 180 / math.pi,
     "uas": 1e6 / ARCSEC,
+    "ms": 1e3,
     "d": 1 / DAY,
     "yr": 1 / JULIAN_YEAR,
     "GJ m-2": 1e-9,

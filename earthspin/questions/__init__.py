@@ -18,6 +18,8 @@ MODULES = {
     "wobble_ladder": "earthspin.questions.wobble",
     "polar_motion": "earthspin.questions.polar_motion",
     "pole_offsets": "earthspin.questions.pole_offsets",
+    "length_of_day": "earthspin.questions.length_of_day",
+    "observed_day": "earthspin.questions.observed_day",
     "forecast": "earthspin.questions.forecast",
     "free_rotor": "earthspin.questions.free_rotor",
     "heavy_top": "earthspin.questions.top",

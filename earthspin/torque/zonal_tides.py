@@ -21,6 +21,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from earthspin.constants import COMPUTED, DAY, Constant
+from earthspin.interior.layers import LayeredBody
+from earthspin.interior.love import elastic
+from earthspin.interior.ocean_and_anelasticity import global_ocean
 from earthspin.numerics.arrays import FloatArray
 
 _TABLE = "IERS Conventions (2010), table 8.1"
@@ -29,6 +32,8 @@ _TABLE = "IERS Conventions (2010), table 8.1"
 KAPPA = Constant(
     0.94, "", 0.014, "Yoder, Williams & Parke 1981, J. Geophys. Res. 86, 881, value of k/C", _TABLE
 )
+#: kappa at 13.66 days.
+OBSERVED = Constant(0.933, "", 0.004, "length of day of C04, 1997 to 2026, term Mf", COMPUTED)
 #: Delay of the Earth's response. Table 8.1 has one of 0.14 d in three terms, and none in others.
 DELAY = Constant(0.13, "d", 0.03, "length of day of C04, 1997 to 2026, 5 to 28 d", COMPUTED)
 #: Mean of (a/r)3 P2(sin d) for a = 6378136.6 m over five turns of the node, 1953 to 2047.
@@ -60,6 +65,24 @@ def change_of_moment(
     """
     factor = (radius / distance) ** 3 * (3 * np.sin(declination) ** 2 - 1) / 2
     return np.asarray(-2 / 3 * mass_ratio * (factor - mean))
+
+
+def computed_responses(layers: LayeredBody) -> dict[str, float]:
+    """Compute kappa of a layered Earth, by what turns along and what yields.
+
+    The core yields to the tide in each case. If it slips, neither its moment nor its bulge counts.
+    An equilibrium ocean on a part of the globe is counted as that part of a global one, which is
+    crude.
+    """
+    love, moment = elastic(layers), layers.moment_factor
+    mantle, mantle_k = moment * (1 - layers.core_fraction), float(love.k - love.core_k)
+    ocean = global_ocean(layers)
+    return {
+        "core_turning_along": float(love.k) / moment,
+        "liquid_core": mantle_k / mantle,
+        "ocean_on_65_percent": (mantle_k + 0.65 * ocean) / mantle,
+        "ocean_on_70_percent": (mantle_k + 0.70 * ocean) / mantle,
+    }
 
 
 @dataclass(frozen=True)

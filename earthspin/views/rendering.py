@@ -23,6 +23,7 @@ from earthspin.progress import progress
 from earthspin.scenes import plan, run_tree
 from earthspin.views import (
     ensemble,
+    length_of_day,
     long_term,
     observed_pole,
     pole,
@@ -52,7 +53,7 @@ if TYPE_CHECKING:
 
 #: Figures, pictures and special tables of the answers to each question.
 VIEWS = precession.VIEWS | torque.VIEWS | pole.VIEWS | rotors.VIEWS | long_term.VIEWS
-VIEWS |= observed_pole.VIEWS | wobble.VIEWS
+VIEWS |= observed_pole.VIEWS | length_of_day.VIEWS | wobble.VIEWS
 
 #: Page of the documentation that explains errors.
 ERRORS = "work_precision"

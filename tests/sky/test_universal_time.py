@@ -79,7 +79,9 @@ def csv(series: UniversalTime, types: list[str], unit: float) -> str:
     return "\n".join([CSV, *lines])
 
 
-@pytest.mark.parametrize("layout", ["finals.csv", "c04.csv", "finals", "c04", "named"])
+@pytest.mark.parametrize(
+    "layout", ["finals.csv", "c04.csv", "finals", "c04", "named", "EOP-All.csv"]
+)
 def test_one_series_in_all_layouts(file: Path, layout: str) -> None:
     name = "finals" if "finals" in layout else "c04"
     series = read_universal_time(name, span=(57744, 57764))
@@ -88,6 +90,11 @@ def test_one_series_in_all_layouts(file: Path, layout: str) -> None:
         rows = zip(series.mjd, 1e3 * series.length_of_day, series.ut1_minus_utc, strict=True)
         file.write_text("\n".join(f"{m:.0f} {lod:.5f} {ut1:.8f}" for m, lod, ut1 in rows))
         columns = "mjd, lod (ms), ut1 (s)"
+    elif layout == "EOP-All.csv":
+        rows = zip(series.mjd, series.ut1_minus_utc, series.length_of_day, strict=True)
+        lines = [f"{m:.0f},0.1,0.3,{ut1},{lod},0,0,0,0,36,O" for m, ut1, lod in rows]
+        file.write_text("\n".join(["MJD,X,Y,UT1-UTC,LOD,DPSI,DEPS,DX,DY,DAT,DATA_TYPE", *lines]))
+        columns = ""
     elif layout.endswith("csv"):
         word, unit = ("final", 1e-3) if name == "finals" else ("", 1.0)
         file.write_text(csv(series, [word] * 20 + ["prediction" if word else ""], unit))
