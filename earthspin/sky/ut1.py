@@ -7,10 +7,12 @@ from functools import cache
 
 import numpy as np
 
+from earthspin import tables
 from earthspin._lazy import erfa
 from earthspin.constants import DAY, DAYS_PER_YEAR, J2000_JD, NORMAL_95
 from earthspin.numerics.polynomials import lagrange
 from earthspin.sky.eop import file_of
+from earthspin.tables import layouts
 
 _MJD_OF_JD0 = 2400000.5
 TT_MINUS_TAI = 32.184  # s
@@ -19,6 +21,16 @@ _PREDICTED = 2.0
 #: Half-width from the tides with periods of a day and less, which daily tables leave out, s: 95 %
 #: of the values of the IERS Conventions (2010), table 8.3, which reach 89 us.
 _DIURNAL = 4.9e-5
+#: Columns that are read, and in finals2000A where they are, with the flag of UT1.
+_COLUMNS = ("mjd", "ut1", "e_ut1")
+_EDGES = {
+    column.quantity: slice(*edges)
+    for column, edges in zip(
+        tables.declared(layouts.FINALS2000A.columns), layouts.FINALS2000A.edges, strict=True
+    )
+}
+_MJD, _UT1, _SIGMA = (_EDGES[name] for name in _COLUMNS)
+_FLAG = _UT1.start - 1
 #: First day of finals2000A.
 _BEGIN_OF_FINALS = 41684.0
 #: Standard deviations of TT - UT1 before the table: year, s. Morrison & Stephenson 2004, J. Hist.
@@ -84,16 +96,19 @@ def tt_minus_ut1(day: float) -> tuple[float, float, str]:
 
 def _c04(mjd: float) -> list[list[float]]:
     """Day, UT1 - UTC, standard deviation and 0 in four rows of the C04 table about a day."""
+    names = [column.quantity for column in tables.declared(layouts.C04[1].columns)]
+    places = [names.index(name) for name in _COLUMNS]
     lines = [line for line in _lines("c04") if not line.startswith("#")]
-    rows = _around(lines, mjd, float(lines[0].split()[4]))
-    return [[float(row.split()[place]) for place in (4, 7, 13)] + [0.0] for row in rows]
+    rows = _around(lines, mjd, float(lines[0].split()[places[0]]))
+    return [[float(row.split()[place]) for place in places] + [0.0] for row in rows]
 
 
 def _finals(mjd: float) -> list[list[float]]:
     """Day, UT1 - UTC, standard deviation, and 1 if predicted, in four rows of finals2000A."""
-    rows = [row for row in _around(_lines("finals"), mjd, _BEGIN_OF_FINALS) if row[58:68].strip()]
-    columns = (slice(7, 15), slice(58, 68), slice(68, 78))
-    return [[*(float(row[c]) for c in columns), float(row[57] == "P")] for row in rows]
+    rows = [row for row in _around(_lines("finals"), mjd, _BEGIN_OF_FINALS) if row[_UT1].strip()]
+    return [
+        [*(float(row[c]) for c in (_MJD, _UT1, _SIGMA)), float(row[_FLAG] == "P")] for row in rows
+    ]
 
 
 def _around(lines: list[str], mjd: float, first: float) -> list[str]:
@@ -115,9 +130,9 @@ def _estimated(day: float) -> tuple[float, float, str]:
     year, scale = 2000.0 + day / DAYS_PER_YEAR, timescale()
     late = float(scale.tdb_jd(J2000_JD + day).delta_t)
     if year > 2000.0:
-        rows = [row for row in _lines("finals") if row[58:68].strip()]
-        observed = max(float(row[7:15]) for row in rows if row[57] == "I")
-        end = _MJD_OF_JD0 + float(rows[-1][7:15]) - 2 - J2000_JD  # within four rows
+        rows = [row for row in _lines("finals") if row[_UT1].strip()]
+        observed = max(float(row[_MJD]) for row in rows if row[_FLAG] == "I")
+        end = _MJD_OF_JD0 + float(rows[-1][_MJD]) - 2 - J2000_JD  # within four rows
         late += tt_minus_ut1(end)[0] - float(scale.tdb_jd(J2000_JD + end).delta_t)
         after = (J2000_JD - _MJD_OF_JD0 + day - observed) / DAYS_PER_YEAR
         longer = max(after / _FUTURE[0, -1], 1.0) ** _POWER

@@ -56,6 +56,16 @@ def test_before_the_tables_the_error_contains_other_values(
     assert abs(late - seconds) < half < most
 
 
+def test_half_widths_are_those_of_ut1_in_the_table() -> None:
+    """Beside them, 49 us of the tides of a day and less."""
+    table = iers.IERS_B.open(iers.IERS_B_FILE)
+    for mjd in (38000, 45000, 52000, 60000):
+        rows = table[np.searchsorted(table["MJD"].value, mjd) + np.arange(-1, 3)]
+        sigma = max(rows["e_UT1_UTC"].value)
+        half = tt_minus_ut1(mjd + 0.5 - 51544.5)[1]
+        assert abs(half - math.hypot(1.96 * sigma, 4.9e-5)) < 1e-4 * half
+
+
 def test_predictions_are_less_certain_the_later_they_are() -> None:
     last = days("2026-08-01")
     halves = [tt_minus_ut1(last + after)[1] for after in (-100.0, 100.0, 300.0, 1000.0, 36525.0)]
