@@ -39,7 +39,7 @@ JOURNAL: dict[str, Any] = {
 #: What a label says of the unit of its numbers, as a word of its own.
 UNIT = re.compile(
     r"(?<![\w$])(m|cm|km|kg|s|h|d|day|days|yr|year|years|century|cycles|turns|TDB|deg|degrees|rad|1/s|"
-    r"rad/s|rad²/s²|arcsec|mas|µas|%|number|ppm|N\sm|m²/s²|kg\sm²|kg/m³|W/m²|GJ/m²)(?![\w$])"
+    r"rad/s|rad²/s²|arcsec|mas|µas|ms|%|number|ppm|N\sm|m²/s²|kg\sm²|kg/m³|W/m²|GJ/m²)(?![\w$])"
 )
 
 #: Words of quantities without a unit.
