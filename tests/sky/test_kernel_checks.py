@@ -5,6 +5,7 @@ import struct
 from dataclasses import replace
 from pathlib import Path
 
+import erfa
 import numpy as np
 import pytest
 import spiceypy as spice
@@ -13,6 +14,7 @@ from numpy.polynomial.chebyshev import chebval
 import earthspin
 from earthspin import Body, EarthspinError, KernelError
 from earthspin.bodies import MOON, SUN
+from earthspin.constants import AU
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import ephemeris
 from earthspin.sky.ephemeris import Ephemeris, find_kernel, open_ephemeris
@@ -210,6 +212,17 @@ def test_de421_passes_without_its_hash(de421: Ephemeris) -> None:
         low, high = DISTANCES[step[1]]
         distance = 1e3 * np.linalg.norm(records._series.sum(axis=2), axis=1)
         assert 1.01 * low <= distance.min() <= distance.max() < 0.99 * high, step
+
+
+@pytest.mark.filterwarnings("ignore::erfa.ErfaWarning")
+@pytest.mark.parametrize("planet", range(1, 9))
+def test_limits_of_distances_are_not_far_from_the_orbits(planet: int) -> None:
+    """As Simon et al. 1994 have them, whose errors are below 0.1 %; from the Sun, 0.01 au off."""
+    days = np.linspace(-164_000, 237_000, 20_000)
+    position = erfa.plan94(2451545.0, days, planet)["p"]
+    distance = AU * np.linalg.norm(position, axis=1)
+    low, high = DISTANCES[planet]
+    assert 0.9 < low / distance.min() < 1 < high / distance.max() < 1.1
 
 
 # --- what is damaged is refused ---------------------------------------------------------------
