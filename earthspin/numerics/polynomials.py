@@ -24,7 +24,7 @@ from earthspin.numerics.arrays import Array, ComplexArray, FloatArray
 #: Real values, or complex values for vectors in a plane.
 _AnyArray = TypeVar("_AnyArray", FloatArray, ComplexArray)
 
-_CHUNK = 1 << 17  # values evaluated in one call, so that the terms stay in the processor's cache
+_CHUNK = 1 << 14  # values evaluated in one call, so that the terms take a few megabytes
 
 
 class Windows:

@@ -15,6 +15,8 @@ from earthspin.dates import YearList, YearSpan, YearStep, grid
 from earthspin.engine import Neglected, Variables, key, labels, measured, number, part, public_call
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray, Numeric
+from earthspin.numerics.varied_inputs import MEMBERS
+from earthspin.progress import progress
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
 from earthspin.questions.labelled_numbers import LabelledNumbers
 from earthspin.questions.reasons import no_iau_model, north_note, not_sun_and_moon
@@ -362,7 +364,8 @@ def angles(
 ) -> derived_angles.AnglesWithErrors:
     """Compute angles and rates, with their errors, from the integrated motions of the spin axis."""
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
-    return derived_angles.derive_all(solved_axes, output_times, fixed)
+    with progress("solutions", MEMBERS) as advance:
+        return derived_angles.derive_all(solved_axes, output_times, fixed, advance)
 
 
 # --- the answer ----------------------------------------------------------------------------------
@@ -419,7 +422,7 @@ def series(
 ) -> LongTermSeries:
     """Return obliquity, precession, eccentricity, poles and rates at every epoch, with errors."""
     nominal, labelled = angles.nominal, inputs.array
-    pole_error = angles.direction_half_width("pole")
+    pole_error = angles.half_width("pole")
     with_moon = solved_axes.setting.precession.node_rate < math.inf
     names = ["sun", "moon", "total"] if with_moon else ["sun", "total"]
     rate = np.stack([nominal.values[name] for name in names], axis=-2)
@@ -436,7 +439,7 @@ def series(
             pole=labelled(np.moveaxis(nominal.pole, 0, -1), "epoch", "component"),
             pole_error=labelled(pole_error, "epoch"),
             ecliptic_pole=labelled(nominal.normal.T, "epoch", "component"),
-            ecliptic_pole_error=labelled(angles.direction_half_width("normal"), "epoch"),
+            ecliptic_pole_error=labelled(angles.half_width("normal"), "epoch"),
             precession_rate=inputs.pair(rate, error, "perturber", "epoch"),
             precession_period=inputs.pair(
                 rates.period(rate), rates.period_error(rate, error), "perturber", "epoch"
@@ -490,7 +493,7 @@ def budget(
         shares = np.broadcast_arrays(*by_cause.values())
         return inputs.array(np.stack(shares, axis=-2), "cause", "epoch")
 
-    by_pole = angles.direction_changes("pole")
+    by_pole = angles.changes("pole")
     return ErrorShares(
         obliquity_share=labelled(angles.changes("obliquity")),
         longitude_share=labelled(angles.changes("longitude_of_perihelion")),
@@ -519,8 +522,8 @@ def matrices(
     """Compute the precession matrices from the GCRS to mean equator and equinox of date."""
     matrix = derived_angles.equator_and_equinox(angles.nominal.pole, angles.nominal.normal)
     error = derived_angles.equinox_error(
-        angles.direction_half_width("pole"),
-        angles.direction_half_width("normal"),
+        angles.half_width("pole"),
+        angles.half_width("normal"),
         np.sin(angles.nominal.values["obliquity"]),
     )
     return Matrices(

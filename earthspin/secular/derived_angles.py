@@ -7,9 +7,11 @@ orbit, along samples of the orbit.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple
+from functools import cached_property, partial
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -155,6 +157,11 @@ NO_EQUINOX = 1e-9
 #: half-widths are quantiles of a sample; in between, weighted means of both. The Earth stays below
 #: the first for a million years.
 LINEAR_TO, SAMPLED_FROM = 0.09, 0.1
+#: Largest number of epochs of a block. Angles are derived block by block, so that memory does not
+#: grow with the number of changed solutions.
+AT_ONCE = 1 << 11
+#: Directions, whose deviations are angles.
+DIRECTIONS = ("pole", "normal")
 #: Quantities that depend only on the orbit, whose changes are always small.
 OF_THE_ORBIT = ("eccentricity",)
 _TURN = 2 * np.pi
@@ -181,6 +188,16 @@ class DerivedAngles:
     pole: FloatArray
     normal: FloatArray
 
+    def blocks(self) -> Iterator[DerivedAngles]:
+        """Yield the angles of successive blocks of epochs."""
+        for block in _blocks(self.normal.shape[-1]):
+            values = {name: array[..., block] for name, array in self.values.items()}
+            yield DerivedAngles(values, self.pole[..., block], self.normal[..., block])
+
+
+#: A cause of error, and a function that derives the solution it changes, block by block.
+Varied = tuple[str, Callable[[], Iterable[DerivedAngles]]]
+
 
 @dataclass(frozen=True)
 class AnglesWithErrors:
@@ -189,8 +206,9 @@ class AnglesWithErrors:
     Attributes
     ----------
     nominal : DerivedAngles
-    varied : tuple of (str, DerivedAngles)
-        Changed solutions by cause; a cause with independent directions occurs more than once.
+    varied : tuple of (str, callable)
+        Changed solutions by cause, derived anew at each use; a cause with independent directions
+        occurs more than once.
     weight : ndarray, shape (..., n)
         Weight of the sampled half-widths, from 0 to 1.
     sampled : dict of str to ndarray, shape (..., n)
@@ -199,35 +217,54 @@ class AnglesWithErrors:
     """
 
     nominal: DerivedAngles
-    varied: tuple[tuple[str, DerivedAngles], ...]
+    varied: tuple[Varied, ...]
     weight: FloatArray | float = 0.0
     sampled: Mapping[str, FloatArray] = field(default_factory=dict)
 
     def half_width(self, name: str) -> FloatArray:
-        """95 % half-width of a derived quantity, by name, from all error sources."""
-        return self._with_sampled(name, root_sum_square(self.changes(name)))
-
-    def direction_half_width(self, which: Literal["pole", "normal"]) -> FloatArray:
-        """95 % half-width of the direction of the spin axis or the orbit normal, rad."""
-        return self._with_sampled(which, root_sum_square(self.direction_changes(which)))
-
-    def _with_sampled(self, name: str, linear: FloatArray) -> FloatArray:
+        """95 % half-width from all error sources of a quantity, or of one of `DIRECTIONS` (rad)."""
+        linear = self._linear[name]
         if name not in self.sampled:
             return linear
         return linear + self.weight * (self.sampled[name] - linear)
 
     def changes(self, name: str) -> dict[str, FloatArray]:
-        """Size of the change of a derived quantity due to each error source, by source name."""
-        return _by_cause(
-            (cause, change(angles, self.nominal, name)) for cause, angles in self.varied
+        """Size of the change of a quantity or direction due to each error source, by its name."""
+        return _joined(_by_cause(name, *block) for block in self._blocks())
+
+    @cached_property
+    def _linear(self) -> dict[str, FloatArray]:
+        """Root sum square of the changes of all quantities and directions."""
+        names = (*self.nominal.values, *DIRECTIONS)
+        return _joined(
+            {name: root_sum_square(_by_cause(name, *block)) for name in names}
+            for block in self._blocks()
         )
 
-    def direction_changes(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
-        """Change in direction, rad, of spin axis or orbit normal due to each error source."""
-        nominal = getattr(self.nominal, which)
-        return _by_cause(
-            (cause, angle(getattr(case, which), nominal)) for cause, case in self.varied
-        )
+    def _blocks(self) -> Iterator[tuple[DerivedAngles, list[tuple[str, DerivedAngles]]]]:
+        """Yield the nominal and all changed solutions in successive blocks of epochs."""
+        causes, solutions = zip(*self.varied, strict=True)
+        changed_blocks = (solution() for solution in solutions)
+        for nominal, *blocks in zip(self.nominal.blocks(), *changed_blocks, strict=True):
+            yield nominal, [*zip(causes, blocks, strict=True)]
+
+
+def _blocks(count: int) -> list[slice]:
+    """Successive blocks of at most `AT_ONCE` of a number of epochs."""
+    return [slice(*ends) for ends in pairwise([*range(0, count, AT_ONCE), count])]
+
+
+def _joined(blocks: Iterable[Mapping[str, FloatArray]]) -> dict[str, FloatArray]:
+    """Join the arrays of successive blocks of epochs, by name."""
+    rows = [*blocks]
+    return {name: np.concatenate([row[name] for row in rows], axis=-1) for name in rows[0]}
+
+
+def deviation(varied: DerivedAngles, nominal: DerivedAngles, name: str) -> FloatArray:
+    """Size of the change of a quantity, or of one of `DIRECTIONS` (rad), from the nominal one."""
+    if name in DIRECTIONS:
+        return angle(getattr(varied, name), getattr(nominal, name))
+    return np.abs(change(varied, nominal, name))
 
 
 def change(varied: DerivedAngles, nominal: DerivedAngles, name: str) -> FloatArray:
@@ -248,11 +285,13 @@ def angle(varied: FloatArray, nominal: FloatArray) -> FloatArray:
     return np.asarray(2 * np.arcsin(np.minimum(half_chord, 1.0)))
 
 
-def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
-    """Combine the changes due to each error source in one or two directions, by root sum square."""
+def _by_cause(
+    name: str, nominal: DerivedAngles, varied: Iterable[tuple[str, DerivedAngles]]
+) -> dict[str, FloatArray]:
+    """Changes of a quantity by cause; those in two directions are combined by root sum square."""
     totals: dict[str, FloatArray] = {}
-    for cause, share in shares:
-        totals[cause] = np.hypot(totals.get(cause, 0.0), share)
+    for cause, angles in varied:
+        totals[cause] = np.hypot(totals.get(cause, 0.0), deviation(angles, nominal, name))
     return totals
 
 
@@ -261,7 +300,12 @@ def root_sum_square(shares: dict[str, FloatArray]) -> FloatArray:
     return np.sqrt(sum(share**2 for share in shares.values()))
 
 
-def derive_all(solved: AxisFamily, times: FloatArray, fixed: FloatArray) -> AnglesWithErrors:
+def derive_all(
+    solved: AxisFamily,
+    times: FloatArray,
+    fixed: FloatArray,
+    advance: Callable[[int], object] = int,
+) -> AnglesWithErrors:
     """Derive angles and rates, with errors, from the nominal and all varied solutions.
 
     Parameters
@@ -271,6 +315,8 @@ def derive_all(solved: AxisFamily, times: FloatArray, fixed: FloatArray) -> Angl
         s from J2000.0 TDB.
     fixed : ndarray, shape (3, 3)
         Orbit and equinox of J2000.0 in the GCRS.
+    advance : callable
+        Called with 1 after each solution of the sample.
 
     Raises
     ------
@@ -285,7 +331,7 @@ def derive_all(solved: AxisFamily, times: FloatArray, fixed: FloatArray) -> Angl
     linear = AnglesWithErrors(
         nominal,
         tuple(
-            (cause, derive(path, changed_setting, times, fixed, perihelion))
+            (cause, partial(derived_blocks, path, changed_setting, times, fixed, perihelion))
             for cause, path, changed_setting in solved.varied
         ),
     )
@@ -293,7 +339,7 @@ def derive_all(solved: AxisFamily, times: FloatArray, fixed: FloatArray) -> Angl
     weight = np.clip((phase - LINEAR_TO) / (SAMPLED_FROM - LINEAR_TO), 0.0, 1.0)
     if not np.any(weight > 0):
         return linear
-    sampled = _sampled(solved, nominal, times, fixed, perihelion)
+    sampled = _sampled(solved, nominal, times, fixed, perihelion, advance)
     return replace(linear, weight=weight, sampled=sampled)
 
 
@@ -325,17 +371,22 @@ def _sampled(
     times: FloatArray,
     fixed: FloatArray,
     perihelion: FloatArray,
+    advance: Callable[[int], object],
 ) -> dict[str, FloatArray]:
     """95 % half-widths of all quantities from solutions with randomly varied inputs."""
-    names = [name for name in nominal.values if name not in OF_THE_ORBIT]
-    span, quantiles = (float(times.min()), float(times.max())), Quantiles()
+    names = [*(name for name in nominal.values if name not in OF_THE_ORBIT), "pole"]
+    span, quantiles = (
+        (float(times.min()), float(times.max())),
+        [Quantiles() for _ in _blocks(times.size)],
+    )
     for amounts in draws(len(solved.uncertainty.causes)):
-        member_setting = changed(solved.setting, solved.uncertainty, amounts)
-        path = solve(member_setting.precession, member_setting.orbit, member_setting.start, span)
-        member = derive(path, member_setting, times, fixed, perihelion)
-        deviations = {name: change(member, nominal, name) for name in names}
-        quantiles.add(deviations | {"pole": angle(member.pole, nominal.pole)})
-    return quantiles.at_probability()
+        member = changed(solved.setting, solved.uncertainty, amounts)
+        path = solve(member.precession, member.orbit, member.start, span)
+        blocks = derived_blocks(path, member, times, fixed, perihelion)
+        for store, block, middle in zip(quantiles, blocks, nominal.blocks(), strict=True):
+            store.add({name: deviation(block, middle, name) for name in names})
+        advance(1)
+    return _joined(store.at_probability() for store in quantiles)
 
 
 def derive(
@@ -346,6 +397,8 @@ def derive(
     orbits: FloatArray,
 ) -> DerivedAngles:
     """Compute angles, pole and precession rates from one trajectory at given times.
+
+    They are the joined `derived_blocks`.
 
     Parameters
     ----------
@@ -360,13 +413,49 @@ def derive(
         Unwrapped longitude of perihelion in these axes at the times and at J2000.0, rad, of the
         nominal orbit.
     """
+    blocks = [*derived_blocks(path, setting, times, fixed, orbits)]
+    values = _joined(block.values for block in blocks)
+    pole, normal = (
+        np.concatenate([getattr(block, name) for block in blocks], axis=-1) for name in DIRECTIONS
+    )
+    return DerivedAngles(values, pole, normal)
+
+
+def derived_blocks(
+    path: AxisTrajectory,
+    setting: AxisInputs,
+    times: FloatArray,
+    fixed: FloatArray,
+    orbits: FloatArray,
+) -> Iterator[DerivedAngles]:
+    """Yield angles, pole and precession rates in successive blocks of epochs.
+
+    The arguments are those of `derive`.
+    """
+    guide = _unwrapped_turns(path, setting, fixed)
+    for block in _blocks(times.size):
+        perihelion = np.append(orbits[:-1][block], orbits[-1])
+        yield _derived(path, setting, times[block], fixed, perihelion, guide)
+
+
+def _derived(
+    path: AxisTrajectory,
+    setting: AxisInputs,
+    times: FloatArray,
+    fixed: FloatArray,
+    orbits: FloatArray,
+    guide: tuple[FloatArray, FloatArray],
+) -> DerivedAngles:
+    """Angles, pole and precession rates at a few times; `guide` is from `_unwrapped_turns`."""
     all_times = np.append(times, 0.0)
     axis = path.at(all_times)
     shape = setting.orbit.at(all_times)
     normal, eccentricity, _ = shape
     n, e, normal_rate = (broadcast_over_members(axis, vector) for vector in shape)
     season = seasons(axis, n, e)
-    general, psi = _followed_precession(path, setting, all_times, fixed, _turns(axis, n, fixed))
+    nodes, unwrapped = guide
+    nearest = np.searchsorted((nodes[1:] + nodes[:-1]) / 2, all_times)
+    general, psi = followed(_turns(axis, n, fixed), unwrapped[..., nearest])
     # perihelion from the moving equinox is orbital perihelion plus precession, apart from the tilt
     perihelion = np.arctan2(season.climatic_precession, season.coprecession)
     perihelion = followed(perihelion, orbits + general)
@@ -394,24 +483,22 @@ def derive(
     return DerivedAngles(at_times, axis[..., :-1], normal[:, :-1])
 
 
-def _followed_precession(
-    path: AxisTrajectory,
-    setting: AxisInputs,
-    times: FloatArray,
-    fixed: FloatArray,
-    angles: FloatArray,
-) -> FloatArray:
-    """Precession angles p_A and psi_A since J2000.0, with whole turns counted, rad."""
-    # along the nodes, which are close enough to unwrap precession
+def _unwrapped_turns(
+    path: AxisTrajectory, setting: AxisInputs, fixed: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Times of the nodes of a trajectory, and p_A and psi_A there with whole turns counted, rad.
+
+    The nodes are close enough to unwrap precession.
+    """
     nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
-    axis = path.at(nodes)
-    unwrapped = np.unwrap(
-        _turns(axis, broadcast_over_members(axis, setting.orbit.at(nodes)[0]), fixed)
-    )
+    turns = []
+    for block in _blocks(nodes.size):
+        axis, (normal, _, _) = path.at(nodes[block]), setting.orbit.at(nodes[block])
+        turns.append(_turns(axis, broadcast_over_members(axis, normal), fixed))
+    unwrapped = np.unwrap(np.concatenate(turns, axis=-1))
     now_index = int(np.searchsorted(nodes, 0.0))
     unwrapped -= _TURN * np.rint(unwrapped[..., now_index : now_index + 1] / _TURN)
-    nearest = np.searchsorted((nodes[1:] + nodes[:-1]) / 2, times)
-    return followed(angles, unwrapped[..., nearest])
+    return nodes, unwrapped
 
 
 def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArray:
@@ -428,7 +515,12 @@ def followed_perihelion(orbit: ChangingOrbit, times: FloatArray, fixed: FloatArr
     """Longitude of perihelion of the orbit in fixed axes, continuous over many turns, rad."""
     first, last = np.floor(min(times.min(), 0.0) / LOOK), np.ceil(max(times.max(), 0.0) / LOOK)
     samples = np.clip(LOOK * np.arange(first, last + 1), *orbit.coverage)
-    angle, sampled = (np.arctan2(*(fixed[:2] @ orbit.at(t)[1])[::-1]) for t in (times, samples))
+    angle, sampled = (
+        np.concatenate(
+            [np.arctan2(*(fixed[:2] @ orbit.at(t[block])[1])[::-1]) for block in _blocks(t.size)]
+        )
+        for t in (times, samples)
+    )
     nearest = np.rint(times / LOOK - first).astype(int)
     return followed(angle, np.unwrap(sampled)[nearest])
 

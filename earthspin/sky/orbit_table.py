@@ -26,7 +26,7 @@ from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import CoverageError, OutputError, one_line
 from earthspin.number_text import plain
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.polynomials import rule
+from earthspin.numerics.polynomials import Windows, rule
 from earthspin.tables import checksum
 
 #: Length of a window, s, and number of terms per window.
@@ -35,7 +35,7 @@ WINDOW, TERMS = 20_000 * JULIAN_YEAR, 16
 DENSE = 3
 #: Cache of evaluated orbits: largest number of times per set, and number of sets. Solutions with
 #: different causes of error evaluate the orbit at the same times.
-LONGEST_REMEMBERED, SETS_REMEMBERED = 1 << 14, 32
+LONGEST_REMEMBERED, SETS_REMEMBERED = 1 << 12, 32
 #: Largest total size of the arrays of a file, bytes; a billion years need 13 million.
 LARGEST = 1 << 26
 #: Unit in which coefficients are stored as integers.
@@ -180,14 +180,15 @@ class OrbitTable:
             return self._evaluated(times)
         return _remembered(self, np.asarray(times, dtype=float).tobytes())
 
+    @cached_property
+    def _windows(self) -> Windows:
+        """Windows of the series, which evaluate them in blocks of times."""
+        return Windows(self.edges, self.coefficients.shape[-1])
+
     def _evaluated(self, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         self.check_times(times)
-        window = np.clip(np.searchsorted(self.edges, times) - 1, 0, len(self.edges) - 2)
-        middle, half = (self.edges[:-1] + self.edges[1:]) / 2, np.diff(self.edges) / 2
-        degree = self.coefficients.shape[-1] - 1
-        basis = legendre.legvander((times - middle[window]) / half[window], degree)
-        n1, n2, e1, e2 = np.einsum("kwm,wm->kw", self.coefficients[:, window], basis)
-        r1, r2 = np.einsum("kwm,wm->kw", self._rates[:, window], basis[:, :-1])
+        n1, n2, e1, e2 = self._windows.evaluate(self.coefficients, times)
+        r1, r2 = self._windows.evaluate(self._rates, times)
         n3 = np.sqrt(1 - n1 * n1 - n2 * n2)
         parts = (
             (n1, n2, n3),

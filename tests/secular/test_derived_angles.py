@@ -1,11 +1,18 @@
 """How far causes move what is read off."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
+from earthspin.secular import derived_angles
 from earthspin.secular.derived_angles import AnglesWithErrors, DerivedAngles
+from earthspin.secular.error_budget import AxisInputs, Uncertainty, solved
+from earthspin.sky.iau_models import fixed_ecliptic
+from tests.secular.setting import EARTHS, KYR, POLE, earths
 
 TURN, NOTHING = 2 * np.pi, np.zeros((3, 1))
+Solution = Callable[[], list[DerivedAngles]]
 
 
 def read(perihelion: float, general: float) -> DerivedAngles:
@@ -13,14 +20,18 @@ def read(perihelion: float, general: float) -> DerivedAngles:
     return DerivedAngles({name: np.array([of]) for name, of in values.items()}, NOTHING, NOTHING)
 
 
+def varied(cause: str, perihelion: float, general: float) -> tuple[str, Solution]:
+    return cause, lambda: [read(perihelion, general)]
+
+
 def test_whole_turns_of_a_perihelion_are_no_error_and_those_of_the_axis_are() -> None:
     """An orbit that is all but round may pass a circle on the other side."""
     of = AnglesWithErrors(
         read(1.0, 5.0),
         (
-            ("orbit", read(1.01 - TURN, 5.0)),
-            ("axis", read(1.0 + TURN, 5.0 + TURN)),
-            ("both", read(1.3 + TURN, 5.2)),
+            varied("orbit", 1.01 - TURN, 5.0),
+            varied("axis", 1.0 + TURN, 5.0 + TURN),
+            varied("both", 1.3 + TURN, 5.2),
         ),
     )
     apart = of.changes("longitude_of_perihelion")
@@ -30,7 +41,31 @@ def test_whole_turns_of_a_perihelion_are_no_error_and_those_of_the_axis_are() ->
 
 
 def test_directions_of_one_cause_count_as_the_root_of_their_squares() -> None:
-    of = AnglesWithErrors(read(1.0, 5.0), (("orbit", read(1.0, 5.3)), ("orbit", read(1.0, 4.6))))
+    of = AnglesWithErrors(read(1.0, 5.0), (varied("orbit", 1.0, 5.3), varied("orbit", 1.0, 4.6)))
     apart = of.changes("general_precession")
     assert list(apart) == ["orbit"]
     assert apart["orbit"] == pytest.approx([0.5], rel=1e-12, abs=0)
+
+
+def test_angles_do_not_depend_on_the_blocks_in_which_they_are_derived(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Bit for bit, with whole turns of precession and perihelion over the edges of blocks."""
+    times = np.arange(-1300.0, 100.0, 7) * KYR
+    uncertainty = Uncertainty(1e-6, EARTHS.error, earth=True, start=(1e-8,))
+    setting = AxisInputs(earths(), EARTHS, POLE)
+    found = []
+    for most in (1 << 11, 32, 199):  # one block, blocks with and without a short remainder
+        monkeypatch.setattr(derived_angles, "AT_ONCE", most)
+        solution = solved(setting, (times[0], times[-1]), uncertainty)
+        found.append(derived_angles.derive_all(solution, times, fixed_ecliptic()))
+    whole, *others = found
+    assert np.any(whole.weight > 0)
+    for other in others:
+        assert np.array_equal(whole.nominal.pole, other.nominal.pole)
+        for name, values in whole.nominal.values.items():
+            assert np.array_equal(values, other.nominal.values[name]), name
+            assert np.array_equal(whole.half_width(name), other.half_width(name)), name
+        shares = (case.changes("pole") for case in (whole, other))
+        for share, same in zip(*(case.values() for case in shares), strict=True):
+            assert np.array_equal(share, same)

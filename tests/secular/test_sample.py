@@ -78,9 +78,7 @@ def _inside(
         member = derive(path, of, times, FIXED, perihelion)
         for name in NAMES:
             inside[name] += np.abs(change(member, found.nominal, name)) <= found.half_width(name)
-        inside["pole"] += angle(member.pole, found.nominal.pole) <= found.direction_half_width(
-            "pole"
-        )
+        inside["pole"] += angle(member.pole, found.nominal.pole) <= found.half_width("pole")
     return {name: count / members for name, count in inside.items()}
 
 
@@ -164,8 +162,8 @@ def test_members_side_by_side_have_the_half_widths_that_each_has_alone() -> None
             assert together_.half_width(name)[place] == pytest.approx(
                 one.half_width(name), rel=1e-6, abs=0
             ), name
-        assert together_.direction_half_width("pole")[place] == pytest.approx(
-            one.direction_half_width("pole"), rel=1e-6, abs=0
+        assert together_.half_width("pole")[place] == pytest.approx(
+            one.half_width("pole"), rel=1e-6, abs=0
         )
 
 
