@@ -354,6 +354,11 @@ class Excitation(tables.Daily, no_error="the files give no errors"):
 
     chi1 = number("mas", "excitation, towards the prime meridian")
     chi2 = number("mas", "excitation, towards 90 degrees east")
+    chi3 = number(
+        "ms",
+        "axial excitation: change of the length of day, 86400 s times chi3",
+        default=None,
+    )
 
 
 _FROM_POLE = "errors of x and y, whose correlation between days is unknown, were not propagated"
@@ -539,7 +544,8 @@ def read_excitation(
     Returns
     -------
     Dataset
-        `chi1`, `chi2` (mas) over `time`.
+        `chi1`, `chi2` (mas) over `time`; and `chi3`, the change of the length of day (ms), if all
+        files have the axial part.
 
     Raises
     ------
@@ -570,8 +576,14 @@ def read_excitation(
         columns = Text().read(columns, Where("columns"))
     table = read_angular_momentum(paths, components, daily=daily, columns=columns)
     chi = sum(getattr(table, term) for term in set(terms))
+    axial = DAY * sum(getattr(table, f"{term}3") for term in set(terms))
     _refuse_other_columns(table, chi, columns)
-    result = Excitation(time=datetime64(table.mjd - MJD), chi1=chi.real, chi2=chi.imag).dataset()
+    result = Excitation(
+        time=datetime64(table.mjd - MJD),
+        chi1=chi.real,
+        chi2=chi.imag,
+        chi3=axial if np.isfinite(axial).all() else None,
+    ).dataset()
     names = " + ".join(components or ("all components",))
     return result.assign_attrs(source=f"{names} ({', '.join(terms)})")
 
@@ -595,7 +607,7 @@ def _meant(column: Meaning, words: dict[str, str], ratio: float) -> Meaning:
     """Meaning of a column of angular momentum after chi1 and chi2 are exchanged or reversed."""
     if column.quantity[:-1] not in TERMS:
         return column
-    word, unit = words[f"chi{column.quantity[-1]}"], column.unit or "rad"
+    word, unit = words.get(f"chi{column.quantity[-1]}", "chi3"), column.unit or "rad"
     if not 1 / ex.OTHER_UNIT < ratio < ex.OTHER_UNIT:
         sizes = {other: Meaning("", other).conversion("rad")[0] for other in (unit, *_UNITS)}
         unit = min(_UNITS, key=lambda other: abs(math.log(ratio * sizes[other] / sizes[unit])))

@@ -24,11 +24,11 @@ from earthspin.tables.layouts import ANGULAR_MOMENTUM
 COMPONENTS = {"AAM": "atmosphere", "OAM": "ocean", "HAM": "hydrology", "SLAM": "sea level"}
 #: Mass and motion terms, by which a component excites polar motion.
 TERMS = ("mass", "motion")
-_NAMES = ("mass1", "mass2", "motion1", "motion2")
+#: Fields of the series: equatorial and axial part of each term.
+_FIELDS = {"mass": complex, "motion": complex, "mass3": float, "motion3": float}
+_NAMES = ("mass1", "mass2", "mass3", "motion1", "motion2", "motion3")
 #: Row of a file: the place of the file in the list of files, its line, its date and both terms.
-_ROW = np.dtype(
-    [("file", int), ("line", int), ("mjd", float), ("mass", complex), ("motion", complex)]
-)
+_ROW = np.dtype([("file", int), ("line", int), ("mjd", float), *_FIELDS.items()])
 #: Plausibility bound, rad: 20 arcsec, more than any observed value.
 LARGEST = 1e-4
 #: Tolerance for equal dates, d.
@@ -45,11 +45,16 @@ class AngularMomentum:
         Modified Julian dates, evenly spaced.
     mass, motion : complex array, shape (n,)
         Mass and motion terms, chi1 + i chi2, rad.
+    mass3, motion3 : array, shape (n,)
+        Axial part chi3 of both terms, the relative change of the length of day; NaN if a file does
+        not have it, or has zeros in its place.
     """
 
     mjd: FloatArray
     mass: ComplexArray
     motion: ComplexArray
+    mass3: FloatArray
+    motion3: FloatArray
 
     def daily(self) -> AngularMomentum:
         """Average the angular momentum functions over each day from 0h to 0h, dated at noon.
@@ -72,14 +77,14 @@ class AngularMomentum:
         edges[[0, -1]] = np.clip(edges[[0, -1]], self.mjd[0], self.mjd[-1])
         times = np.union1d(self.mjd, edges)
 
-        def means(values: ComplexArray) -> ComplexArray:
+        def means(values: Array) -> Array:
             samples = np.interp(times, self.mjd, values)
             pieces = np.diff(times) * (samples[1:] + samples[:-1]) / 2
             total = np.concatenate([[0], np.cumsum(pieces)])
             return np.asarray(np.diff(total[np.searchsorted(times, edges)]))
 
         middles = np.asarray(np.round(edges[:-1]) + 0.5, dtype=float)
-        return AngularMomentum(middles, means(self.mass), means(self.motion))
+        return AngularMomentum(middles, *(means(getattr(self, name)) for name in _FIELDS))
 
 
 def read_angular_momentum(
@@ -121,13 +126,14 @@ def read_angular_momentum(
         raise SeriesError(names, "the components have different dates", "average them: daily=True")
     if mjd.size < 2:
         raise SeriesError(names, "there is no span of two steps that all components cover")
-    mass, motion = (np.sum([getattr(p, term) for p in common], axis=0) for term in TERMS)
-    return AngularMomentum(mjd, mass, motion)
+    sums = (np.sum([getattr(p, name) for p in common], axis=0) for name in _FIELDS)
+    return AngularMomentum(mjd, *sums)
 
 
 def _between(series: AngularMomentum, first: float, last: float) -> AngularMomentum:
     selected = (series.mjd >= first - SAME_TIME) & (series.mjd <= last + SAME_TIME)
-    return AngularMomentum(series.mjd[selected], series.mass[selected], series.motion[selected])
+    parts = (getattr(series, name)[selected] for name in ("mjd", *_FIELDS))
+    return AngularMomentum(*parts)
 
 
 def _files(
@@ -170,7 +176,8 @@ def _joined(files: list[Path], columns: str | None) -> AngularMomentum:
     if len(rows) < 2:
         raise SeriesError(files[0], f"it holds {len(rows)} rows of excitation")
     again = np.diff(rows["mjd"]) <= SAME_TIME
-    other = again & np.any([rows[term][1:] != rows[term][:-1] for term in TERMS], axis=0)
+    known = [np.nan_to_num(rows[name]) for name in _FIELDS]
+    other = again & np.any([values[1:] != values[:-1] for values in known], axis=0)
     if other.any():
         last, row = rows[np.argmax(other) :][:2]
         place = f"line {last['line']} of '{files[last['file']].name}'"
@@ -184,7 +191,7 @@ def _joined(files: list[Path], columns: str | None) -> AngularMomentum:
         problem = f"the step changes before MJD {row['mjd']:.3f}"
         remedy = "even steps are needed; is a file missing?"
         raise SeriesError(files[row["file"]], problem, remedy, int(row["line"]))
-    return AngularMomentum(rows["mjd"], rows["mass"], rows["motion"])
+    return AngularMomentum(rows["mjd"], *(rows[name] for name in _FIELDS))
 
 
 def _rows(files: list[Path], place_of_file: int, columns: str | None) -> Array:
@@ -198,12 +205,15 @@ def _rows(files: list[Path], place_of_file: int, columns: str | None) -> Array:
     sheet.refuse(backwards, problem, "time runs backwards", mjd=mjd, last=np.roll(mjd, 1))
     rows = np.zeros(mjd.size, _ROW)
     rows["file"], rows["line"], rows["mjd"] = place_of_file, sheet.lines, mjd
+    parts = {n: sheet.values(meaning, n, "rad", missing=0.0) for n in _NAMES}
     for name in TERMS:
-        chi1, chi2 = (sheet.values(meaning, name + axis, "rad", missing=0.0) for axis in "12")
-        chi = chi1 + 1j * chi2
+        rows[name] = parts[f"{name}1"] + 1j * parts[f"{name}2"]
+        rows[f"{name}3"] = parts[f"{name}3"]
+    for name in _FIELDS:
         problem = "excitation {chi:.3g} is no such number"
-        sheet.refuse(~(abs(chi) <= LARGEST), problem, "give radians", chi=chi)
-        rows[name] = chi
+        sheet.refuse(~(abs(rows[name]) <= LARGEST), problem, "give radians", chi=rows[name])
+    if not (np.any(rows["mass3"]) or np.any(rows["motion3"])):  # zeros stand for no numbers
+        rows["mass3"] = rows["motion3"] = np.nan
     return rows
 
 

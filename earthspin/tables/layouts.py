@@ -129,6 +129,7 @@ ORBITS = (
 # --- effective angular momentum functions ---------------------------------------------------------
 
 ANGULAR_MOMENTUM = (
-    TableLayout("mass and motion", "year, month, day, hour, mjd, mass1, mass2,, motion1, motion2,"),
-    TableLayout("mass", "year, month, day, hour, mjd, mass1, mass2,"),
-)
+    TableLayout("mass and motion", "year, month, day, hour, mjd, mass1, mass2, mass3, "
+                "motion1, motion2, motion3"),
+    TableLayout("mass", "year, month, day, hour, mjd, mass1, mass2, mass3"),
+)  # fmt: skip

@@ -58,7 +58,7 @@ def test_files_with_another_meaning_are_refused(
     file = written(tmp_path / "AAM.txt", *turn(*chi))
     with pytest.raises(SeriesError) as error:
         earthspin.read_excitation(file)
-    columns = f"year, month, day, hour, mjd, {meaning},"
+    columns = f"year, month, day, hour, mjd, {meaning}, mass3 (rad)"
     assert f"columns='{columns}'" in str(error.value)
     read = earthspin.read_excitation(file, columns=columns)
     assert np.corrcoef(read.chi1, chi[0])[0, 1] > 0.99

@@ -33,6 +33,7 @@ def test_one_file(file: Path) -> None:
     )
     chi = earthspin.read_excitation(file)
     assert float(chi.chi1[0]) == pytest.approx(1.1e-7 / MAS, rel=1e-15, abs=0)
+    assert chi.chi3.values == pytest.approx(3e-7 * 86400e3, rel=1e-15, abs=0)
     driven = earthspin.polar_motion_from(chi, period=433.0, quality_factor=100.0)
     assert driven.time.size == 4
     assert float(driven.x[0]) == 0
@@ -63,6 +64,31 @@ def test_damaged_files(file: Path, old: str, new: str, message: str) -> None:
     file.write_text(EAM.replace(old, new))
     with pytest.raises(SeriesError, match=message):
         earthspin.read_excitation(file)
+
+
+def test_the_axial_part_is_left_out_where_a_file_has_none(tmp_path: Path) -> None:
+    """Two rows each, with the axial part in mass and motion, in one of them, and in none."""
+    aam, oam, ham = (tmp_path / f"{name}.asc" for name in ("AAM", "OAM", "HAM"))
+    rows = [f"2000 1 {day} 0 {51543 + day} 1e-7 2e-7 1e-8 0 0 {day}e-8" for day in (2, 4)]
+    aam.write_text("\n".join(rows))
+    chi = earthspin.read_excitation(aam)
+    assert chi.chi3.attrs["units"] == "ms"
+    assert np.allclose(chi.chi3, [3e-8 * 86400e3, 5e-8 * 86400e3], rtol=1e-12)
+    mass = earthspin.read_excitation(aam, terms=["mass"])
+    assert np.allclose(mass.chi3, 1e-8 * 86400e3, rtol=1e-12)
+    rows = [f"2000 1 {day} 0 {51543 + day} 1e-7 2e-7 -4e-8" for day in (2, 4)]
+    oam.write_text("\n".join(rows))
+    both = earthspin.read_excitation([aam, oam])
+    assert np.allclose(both.chi3, [-1e-8 * 86400e3, 1e-8 * 86400e3], rtol=1e-12)
+    columns = "year, month, day, hour, mjd, mass1, mass2,"
+    assert "chi3" not in earthspin.read_excitation(oam, columns=columns)
+    ham.write_text("51545 1e-7 2e-7 0\n51547 1e-7 2e-7 0")
+    for columns in ("mjd, mass1, mass2,", "mjd, mass1, mass2, mass3"):
+        two = earthspin.read_excitation(ham, columns=columns)
+        assert {*two.data_vars} == {"chi1", "chi2"}
+    oam.write_text("\n".join([*rows, rows[-1].replace("-4e-8", "-5e-8")]))
+    with pytest.raises(SeriesError, match="twice"):
+        earthspin.read_excitation(oam)
 
 
 def test_an_empty_file(file: Path) -> None:
