@@ -10,7 +10,6 @@ from earthspin.constants import NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine import Neglected, Question, key, part, public_call, setting
 from earthspin.engine.variables import measured
-from earthspin.numerics.arrays import FloatArray
 from earthspin.questions import observed_pole as tables
 from earthspin.questions.zonal_tides import days_tdb, without_kernel
 from earthspin.sky.eop import CARRIED, MJD
@@ -42,8 +41,8 @@ class ObservedDay(
     """Observed length of day and UT1.
 
     The length of day is its excess over 86400 s. Rows that a table marks as predicted are left out,
-    and the lengths of day that it lacks are NaN. The section `zonal_tides` has the tides of Sun and
-    Moon; those of UT1 are counted from the first date.
+    and the lengths of day that it lacks are NaN. The zonal tides of Sun and Moon stand beside them;
+    those of UT1 are counted from the first date.
 
     Raises
     ------
@@ -75,7 +74,7 @@ class ObservedDay(
 
 
 class ObservedUniversalTime(tables.Daily):
-    """Observed length of day and UT1."""
+    """Observed length of day and UT1, and the zonal tides on the same days."""
 
     length_of_day = measured(
         "ms",
@@ -84,11 +83,6 @@ class ObservedUniversalTime(tables.Daily):
     )
     ut1_tai = measured("s", "UT1 - TAI")
     ut1_utc = measured("s", "UT1 - UTC")
-
-
-class TidesOfDays(tables.Daily):
-    """Zonal tides on the days of a table."""
-
     length_of_day_tides = measured("ms", "change of the length of day by zonal tides")
     ut1_tides = measured("ms", "change of UT1 by zonal tides since the first date")
 
@@ -102,38 +96,31 @@ def day_table(file: str, columns: str | None, span: Span | None) -> UniversalTim
 
 @part
 def observed_universal_time(day_table: UniversalTime, tides: str) -> ObservedUniversalTime:
-    """Return the observed length of day and UT1, with or without the zonal tides."""
+    """Return the observed length of day and UT1, with or without the zonal tides, and these."""
     lod, late = day_table.length_of_day, day_table.ut1_minus_tai
     errors = NORMAL_95 * day_table.length_of_day_error, NORMAL_95 * day_table.ut1_error
+    days = days_tdb(day_table.mjd)
+    zonal = without_kernel(days[0], days[-1])
+    both = zonal.length_of_day(days), zonal.ut1(days)
+    of_lod, of_ut1 = (np.array(pair)[..., 0] for pair in both)
     if tides == "taken out":
-        of_lod, of_ut1 = _tides(day_table)
         lod, late = lod - of_lod[0], late - of_ut1[0]
         errors = np.hypot(errors[0], of_lod[1]), np.hypot(errors[1], of_ut1[1])
-    source = {"references": f"IERS {day_table.name}", "repairs": day_table.repairs or "none"}
+    source = {"references": day_table.source, "repairs": day_table.repairs or "none"}
     source |= {"zonal_tides": tides}
+    theory = {"references": KAPPA.source}
     return ObservedUniversalTime(
         time=datetime64(day_table.mjd - MJD),
         length_of_day=(lod, errors[0]),
         ut1_tai=(late, errors[1]),
         ut1_utc=(late + tai_minus_utc(day_table.mjd), errors[1]),
-    ).with_attributes(no_error=tables.NO_ERRORS, length_of_day=source, ut1_tai=source)
-
-
-def _tides(table: UniversalTime) -> list[tuple[FloatArray, FloatArray]]:
-    """Zonal tides of the length of day and of UT1 on the days of a table, with half-widths, s."""
-    days = days_tdb(table.mjd)
-    tides = without_kernel(days[0], days[-1])
-    both = tides.length_of_day(days), tides.ut1(days)
-    return [(value[:, 0], error[:, 0]) for value, error in both]
-
-
-@part
-def zonal_tides(day_table: UniversalTime) -> TidesOfDays:
-    """Compute the zonal tides of Sun and Moon on the days of the table."""
-    length_of_day, ut1 = _tides(day_table)
-    return TidesOfDays(
-        time=datetime64(day_table.mjd - MJD), length_of_day_tides=length_of_day, ut1_tides=ut1
-    ).with_attributes(length_of_day_tides={"references": KAPPA.source})
+        length_of_day_tides=of_lod,
+        ut1_tides=of_ut1,
+    ).with_attributes(
+        no_error=tables.NO_ERRORS,
+        **dict.fromkeys(("length_of_day", "ut1_tai", "ut1_utc"), source),
+        **dict.fromkeys(("length_of_day_tides", "ut1_tides"), theory),
+    )
 
 
 @part
@@ -148,8 +135,5 @@ def neglected() -> Neglected:
 
 
 observed_day = public_call(
-    ObservedDay,
-    answer=observed_universal_time,
-    sections=(zonal_tides, neglected),
-    parts=(day_table,),
+    ObservedDay, answer=observed_universal_time, sections=(neglected,), parts=(day_table,)
 )

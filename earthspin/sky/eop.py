@@ -111,7 +111,7 @@ class PoleSeries:
     @property
     def source(self) -> str:
         """Publisher and name of the table that holds the series, such as "IERS c04"."""
-        return _PUBLISHERS.get(self.name, "IERS ") + self.name
+        return source_of(self.name)
 
     @property
     def step(self) -> float:
@@ -143,6 +143,11 @@ class PoleSeries:
             raise SeriesError(self.name, problem, "choose a span inside it")
         rows = {name: getattr(self, name)[selected] for name in COLUMNS[1:]}
         return replace(self, **rows, newest=self.newest and bool(selected[-1]))
+
+
+def source_of(name: str) -> str:
+    """Publisher and name of a table, such as "IERS c04"."""
+    return _PUBLISHERS.get(name, "IERS ") + name
 
 
 #: Files that astropy carries, by the short names that stand for them.

@@ -67,6 +67,16 @@ class UniversalTime:
     sha256: str = ""
 
     @property
+    def source(self) -> str:
+        """Publisher and name of the table, such as "IERS c04"."""
+        return eop.source_of(self.name)
+
+    @property
+    def provenance(self) -> dict[str, str]:
+        """SHA-256 hash of the file, as an attribute for results."""
+        return {"table_sha256": self.sha256}
+
+    @property
     def ut1_minus_utc(self) -> FloatArray:
         """UT1 - UTC, s; after the last announced leap second, if none follows."""
         return np.asarray(self.ut1_minus_tai + tai_minus_utc(self.mjd))

@@ -8,7 +8,7 @@ The tides in the length of day, and what is left of it.
 import matplotlib.pyplot as plt
 
 import earthspin
-from earthspin.views.length_of_day import plot_length_of_day, plot_observed_day
+from earthspin.views.length_of_day import plot_observed_day
 
 # %%
 # A year of observed days
@@ -38,4 +38,5 @@ plot_observed_day(day, figure=fig)
 tides = earthspin.length_of_day("2025-01-01", "2025-07-01", "6 h")
 
 fig, ax = plt.subplots(figsize=(7, 3.6), layout="constrained")
-plot_length_of_day(tides, ax=ax)
+tides.length_of_day.plot.line(x="time", ax=ax)
+ax.set(xlabel="time (TDB)", ylabel="change of the length of day (ms)")
