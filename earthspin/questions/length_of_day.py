@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from earthspin.bodies import Body
 from earthspin.constants import NORMAL_95
@@ -68,14 +67,14 @@ class TidalDay(Dated, along=("time", "perturber")):
     perturber = labels()
 
 
-@part
+@part(loads=("scipy.interpolate",))
 def tides(epochs: Epochs, sky: Sky, body: Body, perturbers: tuple[Body, ...]) -> ZonalTides:
     """Compute the tide of each perturber, and their sum, at nodes a day apart."""
     days = nodes(*epochs.span())
     places = sky.radec(body, days)
     changes = np.array([change_by(p, body, *places[p.name][1:]) for p in perturbers])
     names = (*places, "total")
-    return ZonalTides(names, CubicSpline(days, np.vstack([changes, changes.sum(axis=0)]).T))
+    return ZonalTides.through(names, days, np.vstack([changes, changes.sum(axis=0)]))
 
 
 @part

@@ -87,14 +87,14 @@ class ObservedUniversalTime(tables.Daily):
     ut1_tides = measured("ms", "change of UT1 by zonal tides since the first date")
 
 
-@part
+@part(loads=("astropy.utils.iers",))
 def day_table(file: str, columns: str | None, span: Span | None) -> UniversalTime:
     """Read the observed UT1 and length of day of a table, within the requested span."""
     table = read_universal_time(file, columns, tables.mjd_span(span))
     return table.only(~table.predicted)
 
 
-@part
+@part(loads=("scipy.interpolate",))
 def observed_universal_time(day_table: UniversalTime, tides: str) -> ObservedUniversalTime:
     """Return the observed length of day and UT1, with or without the zonal tides, and these."""
     lod, late = day_table.length_of_day, day_table.ut1_minus_tai

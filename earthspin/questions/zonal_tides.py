@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from earthspin.bodies import EARTH, MOON, SUN, Body
 from earthspin.constants import DAY
@@ -23,6 +22,7 @@ from earthspin.torque.zonal_tides import (
     NODE_STEP,
     ZonalTides,
     change_of_moment,
+    spline,
 )
 
 #: Time between positions of the Sun, which moves slowly, d.
@@ -75,5 +75,5 @@ def without_kernel(first: float, last: float) -> ZonalTides:
     for body, position, step in ((SUN, sun, _SUN_STEP), (MOON, moon, NODE_STEP)):
         some = nodes(first, last, step)
         _, *place = spherical(rotate(iau_models.mean_equator(some), position(some)))
-        changes.append(CubicSpline(some, change_by(body, EARTH, *place))(days))
-    return ZonalTides(("total",), CubicSpline(days, np.sum(changes, axis=0)[:, np.newaxis]))
+        changes.append(spline(some, change_by(body, EARTH, *place))(days))
+    return ZonalTides.through(["total"], days, np.sum(changes, axis=0, keepdims=True))

@@ -15,10 +15,11 @@ spin is constant, with C that of what turns along, and the length of day (LOD) c
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from earthspin.constants import COMPUTED, DAY, Constant
 from earthspin.interior.layers import LayeredBody
@@ -85,6 +86,13 @@ def computed_responses(layers: LayeredBody) -> dict[str, float]:
     }
 
 
+def spline(days: FloatArray, values: FloatArray) -> Any:
+    """Cubic spline through values on given days."""
+    from scipy.interpolate import CubicSpline  # imported here because it takes 0.2 s
+
+    return CubicSpline(days, values)
+
+
 @dataclass(frozen=True)
 class ZonalTides:
     """Zonal tides over a span of time.
@@ -98,7 +106,12 @@ class ZonalTides:
     """
 
     names: tuple[str, ...]
-    change: CubicSpline
+    change: Any
+
+    @classmethod
+    def through(cls, names: Sequence[str], days: FloatArray, changes: FloatArray) -> ZonalTides:
+        """Interpolate changes, of shape (names, n), between days."""
+        return cls(tuple(names), spline(days, changes.T))
 
     def length_of_day(self, days: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Change of the length of day and its 95 % half-width, s, shape (n, names).
