@@ -8,7 +8,6 @@ import numpy as np
 
 from earthspin.bodies import EARTH, MOON, SUN, Body
 from earthspin.constants import DAY
-from earthspin.engine import Neglected
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import iau_models
 from earthspin.sky.eop import MJD
@@ -27,23 +26,6 @@ from earthspin.torque.zonal_tides import (
 
 #: Time between positions of the Sun, which moves slowly, d.
 _SUN_STEP = 5.0
-
-#: Effects that the zonal tides leave out: what C04 holds beside them at most, their own mean, and
-#: differences of the response from `KAPPA`: at half a year in table 8.1, and over 18.6 years by the
-#: anelasticity of PREM.
-NEGLECTED = Neglected(
-    sizes={
-        "winds, currents and the core": 4.4e-3,
-        "mean of the tides": 1.68e-3,
-        "ocean and anelasticity at half a year": 5.2e-6,
-        "anelasticity over 18.6 years": 3.3e-6,
-        "tide of Venus": 1.6e-10,
-    },
-    unit="ms",
-    what="largest change of the length of day",
-    source="IERS C04; IERS Conventions (2010), table 8.1; anelasticity of love_numbers",
-    unknown="tides of a day and of half a day, up to 0.09 ms in UT1",
-)
 
 
 def nodes(first: float, last: float, step: float = NODE_STEP) -> FloatArray:

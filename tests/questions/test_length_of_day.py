@@ -45,6 +45,8 @@ def test_times_need_not_be_even() -> None:
     some = earthspin.length_of_day(times=times)
     every = earthspin.length_of_day("2003-01-01", "2003-03-01", "1 h").sel(time=some.time)
     assert np.allclose(some.length_of_day, every.length_of_day, rtol=0, atol=5e-4)
+    one = earthspin.length_of_day(times=times[1:2]).length_of_day[0]
+    assert np.allclose(one, some.length_of_day[1], rtol=0, atol=5e-4)
     assert np.allclose(some.ut1_tides, every.ut1_tides, rtol=0, atol=1e-3)
 
 
