@@ -19,7 +19,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -354,8 +354,11 @@ def forecast(
     return PredictedPole(pole @ np.array([1, 1j]), combined, spread, complex_parts, variances, fast)
 
 
-def last_of(p: ComplexArray, used: int = RECORD) -> ComplexArray:
-    """Return the last `used` days of daily polar motion; refuse a shorter record.
+Daily = TypeVar("Daily", ComplexArray, FloatArray)
+
+
+def last_of(p: Daily, used: int = RECORD) -> Daily:
+    """Return the last `used` days of daily values; refuse a shorter record.
 
     Raises
     ------

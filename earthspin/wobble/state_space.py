@@ -21,7 +21,7 @@ from earthspin.numerics.arrays import ComplexArray, FloatArray
 # --- Kalman filter, likelihood and autoregression -------------------------------------------------
 
 
-def side_by_side(matrix: ComplexArray) -> FloatArray:
+def side_by_side(matrix: ComplexArray | FloatArray) -> FloatArray:
     """Real matrix that acts like a complex matrix on real parts followed by imaginary parts."""
     return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
 
@@ -53,33 +53,38 @@ class StateSpace:
     @classmethod
     def sampled(
         cls,
-        rates: ComplexArray,
+        rates: ComplexArray | FloatArray,
         density: FloatArray,
-        observed: ComplexArray,
+        observed: ComplexArray | FloatArray,
         error: FloatArray,
         start: FloatArray,
     ) -> StateSpace:
         """Convert a linear model in continuous time to a model with steps of one day.
 
+        A model with real matrices stays as it is: n and 1 replace 2 n and 2 below.
+
         Parameters
         ----------
-        rates : complex array, shape (n, n)
+        rates : complex or real array, shape (n, n)
             A, 1/d.
         density : array, shape (2 n, 2 n)
             Covariance that the noise adds in a day, real parts before imaginary ones.
-        observed : complex array, shape (1, n)
+        observed : complex or real array, shape (1, n)
         error : array, shape (2, 2)
         start : array, shape (2 n, 2 n)
         """
         from scipy.linalg import expm
 
-        matrix = side_by_side(rates)
+        matrix, row = (
+            side_by_side(m) if np.iscomplexobj(m) else np.asarray(m, dtype=float)
+            for m in (rates, observed)
+        )
         size = len(matrix)
         block_matrix = np.block([[-matrix, density], [np.zeros_like(matrix), matrix.T]])
         exponential = expm(block_matrix)
         transition = exponential[size:, size:].T
         noise = transition @ exponential[:size, size:]
-        return cls(transition, (noise + noise.T) / 2, side_by_side(observed), error, start)
+        return cls(transition, (noise + noise.T) / 2, row, error, start)
 
     def every(self, steps: int) -> StateSpace:
         """Return this model with a time step that is longer by a whole factor (`steps`)."""
@@ -118,14 +123,24 @@ class Filter:
     covariance: FloatArray
 
     @classmethod
-    def of(cls, model: StateSpace, count: int) -> Filter:
-        """Build the Kalman filter of a state-space model, with a gain for each observation."""
+    def of(cls, model: StateSpace, count: int, errors: FloatArray | None = None) -> Filter:
+        """Build the Kalman filter of a state-space model, with a gain for each observation.
+
+        Parameters
+        ----------
+        model : StateSpace
+        count : int
+            Number of observations.
+        errors : array, shape (count, k, k), optional
+            Covariance of the error of each observation; that of the model by default.
+        """
         predicted, updated = model.start, model.start
         gains = np.empty((count, len(predicted), len(model.observed)))
         innovation = np.empty((count, len(model.observed), len(model.observed)))
         for k in range(count):
             cross_covariance = predicted @ model.observed.T
-            innovation[k] = model.observed @ cross_covariance + model.error
+            error = model.error if errors is None else errors[k]
+            innovation[k] = model.observed @ cross_covariance + error
             gains[k] = np.linalg.solve(innovation[k], cross_covariance.T).T
             updated = predicted - gains[k] @ cross_covariance.T
             updated = (updated + updated.T) / 2
