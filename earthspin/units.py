@@ -713,6 +713,20 @@ class Word(_AsItIs):
         return value
 
 
+class YesNo(_AsItIs):
+    """Input type: true or false."""
+
+    words, hint = "true or false", "bool"
+    by_name: ClassVar[bool] = True
+
+    def read(self, value: object, where: Where) -> bool:
+        """Return true or false, of Python or as a word; refuse all other values."""
+        word = str(value).lower()
+        if not isinstance(value, (str, bool)) or word not in ("true", "false"):
+            raise where.error(value, f"give {self.words}")
+        return word == "true"
+
+
 @dataclass(frozen=True)
 class Text(_AsItIs):
     """Input type: one line of text."""
@@ -818,7 +832,7 @@ def kind_of(annotation: Any) -> Kind[Any]:
         return Several(kind_of(options[0]))
     if hasattr(annotation, "read"):
         return annotation  # type: ignore[no-any-return]
-    plain: dict[Any, Kind[Any]] = {str: Text(), int: Whole()}
+    plain: dict[Any, Kind[Any]] = {str: Text(), int: Whole(), bool: YesNo()}
     return plain[annotation]
 
 

@@ -436,6 +436,14 @@ def test_words_lists_and_text() -> None:
         Text().read(5, STEP)
 
 
+def test_true_and_false() -> None:
+    for word, value in {True: True, False: False, "true": True, "False": False}.items():
+        assert kind_of(bool).read(word, STEP) is value
+    for wrong in (1, 0.0, None, "yes", []):
+        with pytest.raises(SceneError, match="give true or false"):
+            kind_of(bool).read(wrong, STEP)
+
+
 def test_kinds_follow_from_types() -> None:
     from typing import Literal
 
