@@ -22,7 +22,7 @@ VERBS = {
     "nutation": "make the table of nutation by IAU 2000A that is analysed",
     "librations": "make the table of states of the Moon from DE421's librations; folder of de421",
     "moon": "measure how far the rotation of the Moon is from DE421; folder of de421",
-    "forecast": "measure the skill of the forecast of the pole, which the package ships",
+    "forecast": "measure the skill of forecasts of pole and UT1; folder of releases, if not of pip",
     "free-wobble": "measure how often the intervals of the free wobble contain the truth",
     "pole-offsets": "measure predictions of the celestial pole offsets",
     "worlds": "compare the precession of every world with published rates",

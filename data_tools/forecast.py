@@ -1,8 +1,9 @@
-"""Skill of the forecast of the pole: hindcasts, and releases of the tables with Bulletin A.
+"""Skill of the forecast of pole and UT1: hindcasts, and releases of the tables with Bulletin A.
 
 Hindcasts use C04 with origins from 2005 to 2025, beside least squares with autoregression. Releases
 of astropy-iers-data, about one a week, hold what Bulletin A predicted at the time; pip downloads
-them, one after the other, into a folder that later runs use again.
+them, one after the other, into a folder that later runs use again. If a folder is given, the files
+finals2000A-*.all in it are used, and nothing is downloaded.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ from typing import Any
 
 import numpy as np
 
+from data_tools import ut1_forecast
 from earthspin.constants import MAS, NORMAL_95
+from earthspin.errors import SceneError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion
 from earthspin.wobble.forecast import SKILL, forecast
@@ -32,6 +35,7 @@ HORIZONS = (1, 2, 3, 5, 10, 30, 90, 180, 365, 730)
 SHORT = 30
 #: Modified Julian dates of 2005-01-01, 2014-01-01 and 2026-01-01, and days between origins.
 FIRST, MIDDLE, LAST, EVERY = 53371, 56658, 61041, 30
+ORIGINS = np.arange(float(FIRST), LAST, EVERY)
 #: Years of the least squares of the usual way.
 USUAL_YEARS = 8.0
 #: Modified Julian date of 2024-01-01. The bias of the newest row and the treatment of innovations
@@ -124,9 +128,14 @@ class Release:
     later: Any
 
 
-def releases(folder: Path) -> Iterator[Release]:
+def of_folder(folder: Path) -> list[Path]:
+    """Files finals2000A-VERSION.all of a folder, the newest last."""
+    files = folder.glob("finals2000A-*.all")
+    return sorted(files, key=lambda file: [int(part) for part in re.findall(r"\d+", file.stem)])
+
+
+def releases(files: list[Path]) -> Iterator[Release]:
     """Releases with different newest rows, the oldest first."""
-    files = downloaded(folder)
     observed = read_polar_motion(files[-1])
     truth, known = pole(observed), -np.inf
     for file in files:
@@ -252,9 +261,13 @@ def pooled(name: str, errors: FloatArray, spread: FloatArray) -> str:
     )
 
 
-def main() -> int:
-    """Measure, and write the table that the package ships and those of the page."""
-    every = list(releases(RELEASES))
+def main(folder: str | None = None) -> int:
+    """Measure, and write the tables that the package ships and those of the page."""
+    files = downloaded(RELEASES) if folder is None else of_folder(Path(folder))
+    if len(files) < 2:
+        raise SceneError("folder", folder, "it holds no two files finals2000A-VERSION.all")
+    ut1_forecast.measure(files, ORIGINS, MIDDLE, PAGES)
+    every = list(releases(files))
     sets_of_releases = {
         CHOSEN_ON: [release for release in every if release.origin < CHOSEN],
         RELEASED: [release for release in every if release.origin >= CHOSEN],

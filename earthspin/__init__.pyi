@@ -376,6 +376,7 @@ def forecast(
     start: Date | float | None = ...,
     columns: str | None = ...,
     parameters: Literal["shipped", "fitted"] | None = ...,
+    bulletin_a: bool | None = ...,
     excitation: xr.Dataset | pd.DataFrame | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
 ) -> xr.Dataset: ...

@@ -1,4 +1,4 @@
-"""Forecast of polar motion."""
+"""Forecast of polar motion, and of UT1 and the length of day."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import datetime as dt
 import json
 import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
@@ -29,10 +29,13 @@ from earthspin.questions.observed_pole import (
     refuse_other_excitation,
 )
 from earthspin.questions.reasons import no_iau_model
+from earthspin.questions.rotation_ahead import RotationAhead, no_universal_time, rotation_ahead
 from earthspin.sky import eop
 from earthspin.sky.eop import MJD, GivenSeries, PoleSeries
+from earthspin.sky.universal_time import leap_seconds, read_universal_time, tai_minus_utc
 from earthspin.units import Number, Plain, Text
 from earthspin.wobble import forecast as model
+from earthspin.wobble import ut1_forecast as ut1_model
 
 if TYPE_CHECKING:
     from earthspin.engine.accessor import Answer
@@ -71,7 +74,9 @@ class Forecast(
 ):
     """Forecast of polar motion with its 95 % half-widths.
 
-    Only observed rows up to the origin are used. The attributes of `time` name the newest one.
+    Only observed rows up to the origin are used, except for UT1: its first seven days are those of
+    Bulletin A if `bulletin_a` is true, the table has them, and the origin is its newest observed
+    day. The attributes of `time` name that day.
 
     The first time of the answer is a step after `start`.
 
@@ -112,6 +117,9 @@ class Forecast(
         None,
         doc="parameters of the fast excitation: shipped, or fitted before the origin; "
         "shipped by default, and always fitted with an excitation",
+    )
+    bulletin_a: bool = key(
+        True, doc="true to take the first seven days of UT1 from Bulletin A, if the table has them"
     )
     excitation: Annotated[GivenSeries, GivenTable(("chi1", "chi2"), ("mas",))] | None = key(
         None, doc="excitation by air, water and ground, observed and forecast: daily means"
@@ -252,6 +260,9 @@ def forecast_pole(
     ).with_attributes(x=source, y=source, time=time)
 
 
+_IS_ERROR = "it is an error itself"
+
+
 class Components(Daily):
     """Components of the forecast: Chandler, annual and semiannual wobble, slowly moving pole."""
 
@@ -281,6 +292,67 @@ def components(
     )
 
 
+@part(unless=no_universal_time, loads=("scipy.interpolate", "scipy.linalg"))
+def rotation(
+    file: eop.PoleTable,
+    columns: str | None,
+    record: PoleSeries,
+    output_days: slice,
+    bulletin_a: bool,
+) -> RotationAhead:
+    """Predict UT1 and the length of day for each day after the last observed UT1."""
+    assert not isinstance(file, GivenSeries)
+    table, last = read_universal_time(file, columns), float(record.mjd[-1])
+    return rotation_ahead(table, last, last + output_days.stop, bulletin_a)
+
+
+class ForecastRotation(Daily):
+    """Forecast UT1 and length of day, and the error of a direction from UT1 and polar motion."""
+
+    ut1_utc = measured("s", "UT1 - UTC")
+    ut1_tai = measured("s", "UT1 - TAI")
+    length_of_day = measured("ms", "excess of the length of day over 86400 s")
+    ut1_source = words("source of UT1")
+    direction_error = number(
+        "mas",
+        "largest 95 % half-width of a direction between sky and ground, from UT1 and polar motion",
+        no_error=_IS_ERROR,
+        closing="direction with UT1",
+    )
+    ground_error = number(
+        "m", "the same on the ground at the equator", no_error=_IS_ERROR, closing="at the equator"
+    )
+
+
+@part
+def universal_time(
+    body: Body,
+    record: PoleSeries,
+    rotation: RotationAhead,
+    output_days: slice,
+    forecast_pole: xr.Dataset,
+) -> ForecastRotation:
+    """Return forecast UT1 and length of day with errors, and the error of a direction."""
+    time = _times(record, output_days)
+    rows = np.round(time + MJD - rotation.mjd[0]).astype(int)
+    ut1, half = rotation.ut1_minus_tai[:, rows]
+    pole = np.hypot(si(forecast_pole.x_error).values, si(forecast_pole.y_error).values)
+    direction = np.hypot(pole, 2 * np.pi / body.needed("spin_period") * half)
+    source = _source(record.source, rotation.observed.mjd)
+    source["comment"] += "; with zonal tides, without those of a day or less"
+    _, end = leap_seconds()
+    announced = {"leap_seconds": f"if none comes after {end}, where their list ends"}
+    return ForecastRotation(
+        time=datetime64(time),
+        ut1_utc=(ut1 + tai_minus_utc(time + MJD), half),
+        ut1_tai=(ut1, half),
+        length_of_day=tuple(rotation.length_of_day[:, rows]),
+        ut1_source=np.where(rotation.from_bulletin_a[rows], "Bulletin A", "forecast"),
+        direction_error=direction,
+        ground_error=body.needed("radius") * direction,
+    ).with_attributes(ut1_utc=source | announced, ut1_tai=source, length_of_day=source)
+
+
 _COUNTED = "counted over the origins of the table"
 
 
@@ -305,22 +377,61 @@ class Skill(Variables, along=("case", "coordinate"), no_error="the size of error
     coordinate = labels(default=["x", "y"])
 
 
+def _column(table: list[dict[str, Any]], name: str) -> FloatArray:
+    """Numbers of one column of a table of skill."""
+    return np.array([row[name] for row in table], dtype=float)
+
+
+class Ut1Skill(Variables, along=("ut1_case",), no_error="the size of errors themselves"):
+    """Measured errors of past forecasts of UT1, by number of days after the origin."""
+
+    ut1_mean_absolute_error = number("ms", "mean absolute error of UT1")
+    ut1_root_mean_square = number("ms", "root mean square error of UT1")
+    ut1_coverage = number("1", "share of 95 % intervals that contain the observed UT1")
+    ut1_other_mean_absolute_error = number(
+        "ms", "mean absolute error of UT1 of the other forecast, as in other_mean_absolute_error"
+    )
+    length_of_day_mean_absolute_error = number("ms", "mean absolute error of the length of day")
+    length_of_day_coverage = number(
+        "1", "share of 95 % intervals that contain the observed length of day"
+    )
+    ut1_skill_set = words("table and origins")
+    ut1_horizon = number("d", "days after the origin")
+    ut1_origins = number("1", "number of origins")
+    ut1_case = labels()
+
+
+@part
+def ut1_skill() -> Ut1Skill:
+    """Return measured errors of forecasts of UT1 and the length of day."""
+    table = json.loads(ut1_model.SKILL.read_text(encoding="utf-8"))
+    return Ut1Skill(
+        ut1_mean_absolute_error=_column(table, "mae") / 1e3,
+        ut1_root_mean_square=_column(table, "rms") / 1e3,
+        ut1_coverage=_column(table, "coverage"),
+        ut1_other_mean_absolute_error=_column(table, "other_mae") / 1e3,
+        length_of_day_mean_absolute_error=_column(table, "day_mae") / 1e3,
+        length_of_day_coverage=_column(table, "day_coverage"),
+        ut1_skill_set=[row["set"] for row in table],
+        ut1_horizon=_column(table, "horizon") * DAY,
+        ut1_origins=_column(table, "origins"),
+        ut1_case=[f"{row['set']}, {row['horizon']} d" for row in table],
+    )
+
+
 @part
 def skill() -> Skill:
     """Return measured errors of forecasts, from hindcasts and from releases of IERS tables."""
     table = json.loads(model.SKILL.read_text(encoding="utf-8"))
 
-    def column(name: str) -> FloatArray:
-        return np.array([row[name] for row in table], dtype=float)
-
     return Skill(
-        mean_absolute_error=column("mae") * MAS,
-        root_mean_square=column("rms") * MAS,
-        coverage=column("coverage"),
-        other_mean_absolute_error=column("other_mae") * MAS,
+        mean_absolute_error=_column(table, "mae") * MAS,
+        root_mean_square=_column(table, "rms") * MAS,
+        coverage=_column(table, "coverage"),
+        other_mean_absolute_error=_column(table, "other_mae") * MAS,
         skill_set=[row["set"] for row in table],
-        horizon=column("horizon") * DAY,
-        origins=column("origins"),
+        horizon=_column(table, "horizon") * DAY,
+        origins=_column(table, "origins"),
         case=[f"{row['set']}, {row['horizon']} d" for row in table],
     )
 
@@ -356,7 +467,7 @@ def not_in_file(
 
 
 @part(unless=not_in_file)
-def bulletin_a(file: eop.PoleTable, output_days: slice, forecast_pole: xr.Dataset) -> BulletinA:
+def bulletin_a_(file: eop.PoleTable, output_days: slice, forecast_pole: xr.Dataset) -> BulletinA:
     """Read polar motion predicted by Bulletin A, with 95 % half-widths, and compare it."""
     table = eop.read_bulletin_a(file)
     assert table is not None
@@ -367,6 +478,13 @@ def bulletin_a(file: eop.PoleTable, output_days: slice, forecast_pole: xr.Datase
         x_minus_bulletin_a=si(forecast_pole.x).values - table.x[output_days],
         y_minus_bulletin_a=si(forecast_pole.y).values - table.y[output_days],
     )
+
+
+def _source(table: str, mjd: FloatArray) -> dict[str, str]:
+    """Attributes of a forecast from the rows of a table."""
+    newest = date_text(mjd[-1] - MJD)
+    comment = f"observations up to {newest}"
+    return {"references": table, "comment": comment, "newest_row": newest}
 
 
 class ForecastOffsets(Daily):
@@ -419,12 +537,7 @@ def pole_offsets(
     table = offsets_until(file, columns, float(record.mjd[-1]) - MJD)
     time = _times(record, output_days)
     value, error = (pair.T for pair in predicted_offsets(table, time + MJD))
-    newest = date_text(table.mjd[-1] - MJD)
-    source = {
-        "references": table.source,
-        "comment": f"observations up to {newest}",
-        "newest_row": newest,
-    }
+    source = _source(table.source, table.mjd)
     return ForecastOffsets(
         time=datetime64(time), dX=(value[0], error[0]), dY=(value[1], error[1])
     ).with_attributes(dX=source, dY=source)
@@ -433,29 +546,31 @@ def pole_offsets(
 @part
 def neglected(excitation: GivenSeries | None) -> Neglected:
     """Effects that the forecast neglects."""
-    momentum = "forecasts of the angular momentum of air, water and ground"
+    momentum = "forecasts of the angular momentum of air, water and ground, but for those in the "
+    momentum += "first seven days of UT1 of Bulletin A"
     if excitation is not None:
         momentum = (
             "errors of a forecast of the excitation beyond those of its values up to the origin"
         )
-    tides = "tides of a day and of half a day, which tables of the pole leave out by convention"
+    tides = "tides of a day and of half a day, which tables leave out by convention"
     return Neglected(unknown=f"{momentum}; {tides}")
 
 
 forecast = public_call(
     Forecast,
     answer=forecast_pole,
-    sections=(components, skill, bulletin_a, pole_offsets, neglected),
-    parts=(record, output_days, prediction),
+    sections=(components, (skill, ut1_skill), bulletin_a_, pole_offsets, universal_time, neglected),
+    parts=(record, output_days, prediction, rotation),
 )
 
 
 def to_iers_table(answer: Answer) -> PoleTable:
     """Convert a forecast to an astropy table of Earth orientation parameters.
 
-    Polar motion and celestial pole offsets are observed up to the origin and forecast after
-    it, day by day and without errors. UT1 - UTC is that of finals2000A. Dates outside the table
-    are refused, even if astropy would only warn.
+    Polar motion, celestial pole offsets and UT1 - UTC are observed up to the origin and forecast
+    after it, day by day and without errors. UT1 - UTC is that of finals2000A, which may have been
+    observed later, if the table has none to forecast. Dates outside the table are refused, even
+    if astropy would only warn.
 
     Parameters
     ----------
@@ -470,7 +585,7 @@ def to_iers_table(answer: Answer) -> PoleTable:
     ------
     SceneError
         If the answer is not a forecast, if the forecast used polar motion without a table, or
-        if it reaches farther than the UT1 - UTC of finals2000A.
+        if it reaches farther than UT1 - UTC.
 
     Examples
     --------
@@ -486,7 +601,7 @@ def to_iers_table(answer: Answer) -> PoleTable:
     if not isinstance(question, Forecast):
         problem = f"an answer of '{question.word}' has no table; give one of 'forecast'"
         raise SceneError("to_iers_table", question.word, problem)
-    from earthspin.sky.iers_table import last_ut1, with_pole
+    from earthspin.sky.iers_table import last_ut1, with_orientation
 
     file = question.file
     if isinstance(file, GivenSeries):
@@ -496,7 +611,8 @@ def to_iers_table(answer: Answer) -> PoleTable:
     last = observed.mjd[-1] + run["output_days"].stop
     offsets = offsets_until(file, question.columns, float(observed.mjd[-1]) - MJD)
     rapid = eop.file_of(file) if offsets.name == "finals2000A" else eop.file_of("finals")
-    if (reach := last_ut1(rapid)) < last:
+    rotation: RotationAhead | None = None if run.why_not("rotation") else run["rotation"]
+    if rotation is None and (reach := last_ut1(rapid)) < last:
         problem = f"{rapid.name} has UT1-UTC for {reach - observed.mjd[-1]:.0f} d after the origin"
         raise SceneError("days", f"{question.days:g} d", f"{problem}; take no more days")
     p = np.concatenate([observed.pole, run["prediction"].pole]) * MAS
@@ -504,8 +620,12 @@ def to_iers_table(answer: Answer) -> PoleTable:
     days = _continued(offsets.mjd, last)
     later, _ = predicted_offsets(offsets, days[offsets.mjd.size :])
     known = np.stack([offsets.x, offsets.y], axis=1)
-    ends = (float(observed.mjd[-1]), float(offsets.mjd[-1]))
-    return with_pole(rapid, pole, np.array([days, *np.concatenate([known, later]).T]), ends)
+    replaced = [pole, np.array([days, *np.concatenate([known, later]).T])]
+    ends = [float(observed.mjd[-1]), float(offsets.mjd[-1])]
+    if rotation is not None:
+        replaced.append(rotation.ut1_minus_utc)
+        ends.append(float(rotation.observed.mjd[-1]))
+    return with_orientation(rapid, replaced, ends)
 
 
 def _continued(mjd: FloatArray, last: float) -> FloatArray:

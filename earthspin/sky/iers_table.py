@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -38,33 +39,46 @@ class PoleTable(iers.IERS_A):  # type: ignore[misc]
         return days
 
 
+#: Columns of polar motion, celestial pole offsets and UT1, with their flags, and the units of
+#: `with_orientation`. Errors and the columns of each bulletin in finals2000A are left out.
+_COLUMNS = (
+    (("PM_x", "PM_y"), "PolPMFlag", u.rad),
+    (("dX_2000A", "dY_2000A"), "NutFlag", u.rad),
+    (("UT1_UTC",), "UT1Flag", u.s),
+)
+
+
 def last_ut1(finals: Path) -> float:
     """Last modified Julian date for which a finals2000A file has UT1 - UTC."""
     return float(PoleTable.read(finals)["MJD"][-1].value)
 
 
-def with_pole(
-    finals: Path, pole: FloatArray, offsets: FloatArray, observed: tuple[float, float]
+def with_orientation(
+    finals: Path, replaced: Sequence[FloatArray], observed: Sequence[float]
 ) -> PoleTable:
-    """Build a table from finals2000A, with polar motion and celestial pole offsets replaced.
+    """Build a table from finals2000A, with polar motion, pole offsets and UT1 - UTC replaced.
 
     Parameters
     ----------
     finals : Path
-        File of that layout; UT1 - UTC is taken from it, observed or predicted.
-    pole, offsets : array, shape (3, n)
-        Daily modified Julian dates, and x and y or dX and dY, rad. The table ends where the shorter
-        series ends; rows before a series begins are unchanged.
-    observed : tuple of float
+        File of that layout.
+    replaced : sequence of array, shapes (3, n), (3, m) and (2, k)
+        Daily modified Julian dates with x and y, with dX and dY, rad, and with UT1 - UTC, s;
+        without the last, UT1 - UTC is that of the file, observed or predicted. The table ends where
+        the shorter of the first two ends; rows before a series begins are unchanged.
+    observed : sequence of float
         Modified Julian dates of the last observed row of each.
     """
-    finals_table = PoleTable.read(finals)
-    table: PoleTable = finals_table[finals_table["MJD"].value <= min(pole[0, -1], offsets[0, -1])]
-    mjd = table["MJD"].value
-    columns = (("PM_x", "PM_y", "PolPMFlag"), ("dX_2000A", "dY_2000A", "NutFlag"))
-    for (x, y, flag), series, last in zip(columns, (pole, offsets), observed, strict=True):
-        rows = mjd >= series[0, 0]
-        places = np.searchsorted(series[0], mjd[rows])
-        table[x][rows], table[y][rows] = series[1:, places] * u.rad
-        table[flag][rows] = np.where(mjd[rows] <= last, "I", "P")
+    table: PoleTable = PoleTable.read(finals)
+    table.keep_columns(["MJD", *(c for names, flag, _ in _COLUMNS for c in (*names, flag))])
+    first, last = table["MJD"][0].value, min(series[0, -1] for series in replaced[:2])
+    rows = np.arange(int(last - first) + 1)
+    table = table[np.minimum(rows, len(table) - 1)]
+    table["MJD"] = (mjd := first + rows) * u.d
+    for (names, flag, unit), series, end in zip(_COLUMNS, replaced, observed, strict=False):
+        new = mjd >= series[0, 0]
+        places = np.searchsorted(series[0], mjd[new])
+        for name, values in zip(names, series[1:], strict=True):
+            table[name][new] = values[places] * unit
+        table[flag][new] = np.where(mjd[new] <= end, "I", "P")
     return table

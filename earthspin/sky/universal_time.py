@@ -6,6 +6,7 @@ tables whose columns the user names. UT1 is returned relative to TAI, which has 
 
 from __future__ import annotations
 
+import re
 import warnings
 from dataclasses import dataclass, fields, replace
 from functools import cache, lru_cache, partial
@@ -87,8 +88,25 @@ class UniversalTime:
         return replace(self, **{name: getattr(self, name)[rows] for name in names})
 
 
+@cache
+def leap_seconds() -> tuple[FloatArray, str]:
+    """Modified Julian dates of leap seconds and TAI - UTC after them, s, and the end of the list.
+
+    The list is the one that astropy includes; it begins in 1972.
+    """
+    import astropy_iers_data
+
+    text = Path(astropy_iers_data.IERS_LEAP_SECOND_FILE).read_text("ascii")
+    rows = [line.split() for line in text.splitlines() if line[:1] != "#" and line.strip()]
+    end = re.findall(r"expires on (.*)", text)
+    return np.array([(row[0], row[-1]) for row in rows], dtype=float).T, end[0] if end else ""
+
+
 def tai_minus_utc(mjd: FloatArray) -> FloatArray:
     """TAI - UTC at modified Julian dates (UTC) from 1960 on, s, with all known leap seconds."""
+    (days, seconds), _ = leap_seconds()
+    if np.all(mjd >= days[0]):
+        return np.asarray(seconds[np.searchsorted(days, mjd, side="right") - 1])
     _update_leap_seconds()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", erfa.ErfaWarning)  # later leap seconds are not known
