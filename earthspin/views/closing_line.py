@@ -39,12 +39,33 @@ def closing_line(result: Result, computation_time: float | None = None) -> str:
     if isinstance(result, xr.DataTree) and "plan" in result.children:
         computation_time = float(result["plan"].computation_time)
     cost = "" if computation_time is None else run_time(computation_time)
-    return "; ".join(filter(None, (_error(answer), *_conditions(result), cost)))
+    sections = *_of_sections(result), *_conditions(result)
+    return "; ".join(filter(None, (_error(answer), *sections, cost)))
 
 
 def run_time(computation_time: float) -> str:
     """Wall time since this process began, and the given run time of the computation, as text."""
     return run_time_words(seconds_since_start(), computation_time)
+
+
+def _of_sections(result: Result) -> list[str]:
+    """Largest values of numbers in sections whose attribute is `closing`, or where they are."""
+    if (question := question_of(dataset_of(result))) is None:
+        return []
+    children = result.children if isinstance(result, xr.DataTree) else {}
+    texts = []
+    for name, parts in question.graph.sections.items():
+        variables = {k: v for part in parts for k, v in question.graph.parts[part].gives.items()}
+        closing = {key: v.attrs["closing"] for key, v in variables.items() if "closing" in v.attrs}
+        if closing and name not in children:
+            texts.append(f"{next(iter(closing.values()))}: --sections {name}")
+        for key, words in closing.items() if name in children else ():
+            value = children[name].to_dataset()[key]
+            place = value[{value.dims[0]: int(np.nanargmax(value.values))}]
+            size = plain(float(place)) + shown_unit(value.attrs["units"])
+            at = _label(place, value.dims[0], 0)
+            texts.append(f"{words}: largest 95 % error {size} at {at}")
+    return texts
 
 
 def _conditions(result: Result) -> list[str]:

@@ -369,6 +369,36 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 @page_figure(
+    "Error of a direction",
+    "95 % half-width of a direction between sky and ground from UT1 and polar motion; dashed, the "
+    "part of polar motion. UT1 of the first seven days is that of Bulletin A, if the table has it.",
+    section="universal_time",
+)
+def plot_direction(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the error of a direction over time, from UT1 and polar motion, and from the latter.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Answer to the question ``forecast``.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 7.0, 3.6)
+    answer, rotation = answer_of(result), section(result, "universal_time")
+    both, time = rotation.direction_error.values, answer.time.values
+    scale = 1e3 if answer.x.attrs.get("units") == "arcsec" else 1.0
+    pole = scale * np.hypot(answer.x_error.values, answer.y_error.values)
+    ax.semilogy(time, both, color=drawing.RED, lw=1.6, label="UT1 and polar motion")
+    ax.semilogy(time, pole, color=drawing.BLUE, lw=1, ls="--", label="polar motion alone")
+    metres = float(rotation.ground_error[-1] / both[-1])
+    ax.secondary_yaxis("right", functions=_scaling(metres)).set_ylabel("at the equator (m)")
+    ax.set(ylabel="95 % half-width (mas)", xlabel="time (UTC)")
+    drawing.few_dates(ax)
+    ax.legend(loc="best")
+    return ax
+
+
+@page_figure(
     "Error and coverage by horizon",
     "Mean absolute error of one coordinate and share of 95 % intervals that contain the "
     "observed pole, in hindcasts with C04 and on releases of finals2000A; dashed, the other "
@@ -409,5 +439,5 @@ def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
 VIEWS = {
     "polar-motion": Views([plot_amplitude_and_phase, plot_spectra, plot_polhode]),
     "pole-offsets": Views([plot_offsets, plot_core_nutation]),
-    "forecast": Views([plot_coordinates, plot_path, plot_skill]),
+    "forecast": Views([plot_coordinates, plot_path, plot_direction, plot_skill]),
 }
