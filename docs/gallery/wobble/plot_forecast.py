@@ -8,7 +8,12 @@ A forecast over a year with its errors, beside the pole that was observed later.
 import matplotlib.pyplot as plt
 
 import earthspin
-from earthspin.views.observed_pole import plot_coordinates, plot_path, plot_skill
+from earthspin.views.observed_pole import (
+    plot_coordinates,
+    plot_direction,
+    plot_path,
+    plot_skill,
+)
 
 # %%
 # Coordinates of the pole, with error bands
@@ -47,3 +52,15 @@ ax.plot(seen.y * 1e3, seen.x * 1e3, color="black", lw=1)
 # *Next:* ``earthspin.run_tree("forecast")["skill"]`` has the numbers.
 
 plot_skill(ahead, figure=plt.figure(figsize=(7, 5.6)))
+
+# %%
+# Error of a direction
+# --------------------
+# Half-width of a direction between sky and ground, from polar motion (I.6.7) and from UT1. From C04
+# UT1 is forecast from observations alone.
+#
+# *Next:* from the newest row of finals2000A the first seven days are those of Bulletin A:
+# ``earthspin.forecast(90)``.
+
+fig, ax = plt.subplots(figsize=(7, 3.6))
+plot_direction(ahead, ax=ax)
