@@ -535,7 +535,7 @@ class Part(Generic[P, R]):
     @property
     def title(self) -> str:
         """Name of this part (function) in the table of a plan."""
-        return self.name.rstrip("_").replace("_", "-")
+        return self.name.replace("_", "-")
 
     @cached_property
     def needs(self) -> tuple[str, ...]:
@@ -676,8 +676,8 @@ def define_parts(
     answer : Part or tuple of Part
         Parts whose variables a call returns; the first must run.
     sections : iterable or mapping of Part or tuple of Part
-        Parts of further results; a section has the name of its first part, without an underscore
-        at its end, or that in the mapping. `neglected` is required.
+        Parts of further results; a section has the name of its first part, or that in the mapping.
+        `neglected` is required.
     parts : iterable of Part
         Intermediate parts.
     together : tuple of str
@@ -693,8 +693,7 @@ def define_parts(
     """
     if not isinstance(sections, Mapping):
         sections = {
-            (group if isinstance(group, Part) else group[0]).name.rstrip("_"): group
-            for group in sections
+            (group if isinstance(group, Part) else group[0]).name: group for group in sections
         }
     groups = {
         name: group if isinstance(group, tuple) else (group,)

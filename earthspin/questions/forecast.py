@@ -467,7 +467,9 @@ def not_in_file(
 
 
 @part(unless=not_in_file)
-def bulletin_a_(file: eop.PoleTable, output_days: slice, forecast_pole: xr.Dataset) -> BulletinA:
+def predicted_by_bulletin_a(
+    file: eop.PoleTable, output_days: slice, forecast_pole: xr.Dataset
+) -> BulletinA:
     """Read polar motion predicted by Bulletin A, with 95 % half-widths, and compare it."""
     table = eop.read_bulletin_a(file)
     assert table is not None
@@ -559,7 +561,14 @@ def neglected(excitation: GivenSeries | None) -> Neglected:
 forecast = public_call(
     Forecast,
     answer=forecast_pole,
-    sections=(components, (skill, ut1_skill), bulletin_a_, pole_offsets, universal_time, neglected),
+    sections={
+        "components": components,
+        "skill": (skill, ut1_skill),
+        "bulletin_a": predicted_by_bulletin_a,
+        "pole_offsets": pole_offsets,
+        "universal_time": universal_time,
+        Neglected.PART: neglected,
+    },
     parts=(record, output_days, prediction, rotation),
 )
 

@@ -204,7 +204,8 @@ def test_the_age_of_a_table_and_a_stored_today(monkeypatch: pytest.MonkeyPatch) 
     assert answer.time.attrs["age_of_newest_row"].startswith("40 d")
     assert f'start = "{dates.date_text(newest + 40)}"' in answer.attrs["scene"]
     later = earthspin.load_scene("forecast", {"days": "365 d", "start": "today"})
-    assert "end the forecast by then" in earthspin.plan(later, "all").left_out["bulletin-a"]
+    left_out = earthspin.plan(later, "all").left_out
+    assert "end the forecast by then" in left_out["predicted-by-bulletin-a"]
     monkeypatch.setattr("earthspin.questions.forecast.today", lambda: newest + 50)
     xr.testing.assert_identical(earthspin.run(answer), answer)
     with pytest.warns(UserWarning, match="50 d old.*start='today'.*pip install"):
