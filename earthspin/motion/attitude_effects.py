@@ -28,8 +28,8 @@ ALL_EFFECTS = ChainMap(ATTITUDE_EFFECTS, EFFECTS)
 
 
 def _in_body(matrix: FloatArray, position: FloatArray) -> FloatArray:
-    """Transform positions (3, 1, n) from sky axes to the axes of each body, (3, bodies, n)."""
-    return np.asarray(np.einsum("jibn,jkn->ibn", matrix, position))
+    """Transform positions (3, w, n) from sky axes to those of a body, or of some in one window."""
+    return np.asarray(np.einsum("ji...,j...->i...", matrix, position))
 
 
 # --- harmonics of the field -----------------------------------------------------------------------

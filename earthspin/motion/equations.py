@@ -34,12 +34,13 @@ from earthspin.torque.gravity import apply, cross, zonal_law
 #: quaternions (m, 4) and angular velocities along the body's axes, rad/s (m, 3).
 CustomTorque = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 #: Contribution of an effect to l' along the sky's axes, s-1, from figure axis and angular momentum,
-#: each of shape (3, bodies, nodes).
+#: each of shape (3, bodies, nodes) in one window, or (3, w, n) in many windows for one body.
 SkyLaw = Callable[[FloatArray, FloatArray], FloatArray]
 #: Contribution of an effect that depends on the full attitude, from matrices from body to sky axes,
 #: shape (3, 3, bodies, nodes), and angular velocities along the body's axes, rad/s, shape (3,
 #: bodies, nodes): a torque per C along the body's axes, s-2, or a change of the products of inertia
-#: per C, shape (6, bodies, nodes), in the order of `earthspin.torque.gravity.tidal_tensor`.
+#: per C, shape (6, bodies, nodes), in the order of `earthspin.torque.gravity.tidal_tensor`. In many
+#: windows, shapes end with (w, n) instead.
 BodyLaw = Callable[[FloatArray, FloatArray], FloatArray]
 
 #: Inputs that are changed in the neighbours of a body, in this order; the last is the first state.

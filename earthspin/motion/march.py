@@ -58,7 +58,7 @@ class Masses:
     near : int
         Number of masses that act on J_n.
     laws : callable or None
-        Function of a window and the positions at its nodes by name, each of shape (3, 1, n), that
+        Function of windows and the positions at their nodes by name, each of shape (3, w, n), that
         returns the contributions of effects.
     body_torques, inertia_changes : callable or None
         The same for effects that depend on the full attitude.

@@ -1,10 +1,13 @@
 """Full attitude of a rigid body in time, with its error, by numerical integration.
 
-Each motion is integrated twice, in two forms and with two window lengths: Euler's equations along
-the body's axes in long windows, and the angular momentum along the sky's axes in windows of half
-the length. Halving a window of n nodes divides the error by about 2^2n, so the difference of the
-two solutions bounds the error of the second one; in a chaotic motion it grows like any error. The
-effect of an uncertain number is the difference from a neighbour in which this number is changed.
+Each motion is integrated twice, with two window lengths. Halving a window of n nodes divides the
+error by about 2^2n, so the difference of the two solutions bounds the error of the second one; in a
+chaotic motion it grows like any error. The effect of an uncertain number is the difference from a
+neighbour in which this number is changed.
+
+Windows of a body that spins near a principal axis are solved together. Other windows are solved in
+succession and in two forms: Euler's equations along the body's axes in the long windows, and the
+angular momentum along the sky's axes in windows of half the length.
 """
 
 from __future__ import annotations
@@ -27,6 +30,7 @@ from earthspin.motion.equations import (
 )
 from earthspin.motion.forces import BodyTorque, Forces, Torque, equatorial_basis
 from earthspin.motion.march import CONVERGED, FINEST, ORDER, Masses, Piece, Solver
+from earthspin.motion.together import Together
 from earthspin.numerics import polynomials, rotations
 from earthspin.numerics.arrays import FloatArray
 from earthspin.torque.gravity import apply
@@ -165,6 +169,10 @@ TWICE = 2.0
 COARSEST = 1e-6
 #: Quantities with errors: attitude, rad; angular velocity, rad/s; angular momentum, C u.
 KINDS = ("attitude", "omega", "angular_momentum")
+#: Number of times in each full window at which errors are evaluated.
+_SAMPLES = 4
+#: Largest number of batches of successive windows before windows are tried together again.
+_LONGEST_WAIT = 63
 
 
 @dataclass(frozen=True)
@@ -287,8 +295,6 @@ class AttitudeIntegrator:
         Last time, s from the start.
     tolerance : float
         Largest relative size of the last terms in the long windows.
-    order : int
-        Number of nodes in a window.
 
     Raises
     ------
@@ -304,17 +310,17 @@ class AttitudeIntegrator:
         end: float,
         *,
         tolerance: float = FINEST,
-        order: int = ORDER,
     ) -> None:
         self._body, self._masses, self._start = body, masses, start
         self._end = max(end, SHORTEST)
-        self._tolerance, self._order = tolerance, order
+        self._tolerance = tolerance
         self._restart()
 
     def _restart(self) -> None:
-        start, body, settings = self._start, self._body, (self._tolerance, self._order)
-        self._fine = Solver(body, self._masses, True, *settings, converged=_FINE)
-        self._coarse = Solver(body.first(), self._masses, False, *settings)
+        start, body, masses, tolerance = self._start, self._body, self._masses, self._tolerance
+        self._fine = Solver(body, masses, True, tolerance, converged=_FINE)
+        self._coarse = Solver(body.first(), masses, False, tolerance)
+        self._together = Together(body, masses, tolerance, self._end)
         self._coarse.begin_with(start.spin)
         speed = float(np.max(np.sqrt(np.sum(start.spin**2, axis=0))))
         self._rounding = _EPS * speed * self._end
@@ -329,19 +335,26 @@ class AttitudeIntegrator:
         self._largest_errors = np.zeros((body.count, len(KINDS), 1))
 
     @property
-    def order(self) -> int:
-        """Number of nodes in a time window."""
-        return self._order
-
-    @property
     def evaluations(self) -> int:
         """Number of evaluations of the rates at nodes so far, in both solutions together."""
-        return self._order * (self._fine.evaluations + self._coarse.evaluations)
+        in_succession = ORDER * (self._fine.evaluations + self._coarse.evaluations)
+        return in_succession + self._together.evaluations
 
     def _march(self, fine: FloatArray, coarse: FloatArray) -> Iterator[tuple[Piece, Piece]]:
         """Yield two solutions of each batch of windows: with full and with half windows."""
-        time = 0.0
-        while True:
+        time, batches, wait = 0.0, 0, 0
+        while time < self._end:
+            pair = None
+            if batches == 0:
+                pair = self._together.solve(time, _in_sky(coarse), fine)
+                wait = 0 if pair else min(2 * wait + 1, _LONGEST_WAIT)
+                batches = wait
+            if pair is not None:
+                yield pair
+                ends = pair[0].end, pair[1].end
+                coarse, fine = _in_body(ends[0]), ends[1]
+                time = float(pair[0].edges[-1])
+                continue
             full = self._coarse.integrate(self._coarse.next_edges(time, self._end), coarse)
             if len(full.edges) < 2:
                 continue
@@ -352,9 +365,8 @@ class AttitudeIntegrator:
                 self._coarse.window /= 2
                 continue
             coarse, fine, time = full.end, halved.end, float(full.edges[-1])
+            batches -= 1
             yield full, halved
-            if time >= self._end:
-                return
 
     def at(self, times: FloatArray, hook: Callable[[float], None] | None = None) -> RotationSeries:
         """Angular momentum, attitude and angular velocity at given times, with errors.
@@ -377,20 +389,17 @@ class AttitudeIntegrator:
         states, spins, errors, computed = [], [], [], 0
         while computed < times.size:
             if self._solution is None or times[computed] > self._solution[1].edges[-1]:
-                if self._solution is not None:
-                    self._largest_errors = self._errors_until(self._solution[0].edges)[..., -1:]
                 self._solution = next(self._solutions)
+                self._sample_errors()
                 if hook is not None:
                     hook(float(self._solution[1].edges[-1]))
             next_index = int(np.searchsorted(times, self._solution[1].edges[-1], side="right"))
             part_times = times[computed:next_index]
-            edges = self._solution[0].edges
-            last_edge = np.clip(np.searchsorted(edges, part_times) - 1, 0, None)
-            earlier_error = self._errors_until(edges)[..., last_edge]
+            last = np.clip(np.searchsorted(self._sample_times, part_times) - 1, 0, None)
             state, error = self._state_and_errors(part_times)
             states.append(state)
             spins.append(self._spin(part_times, state))
-            errors.append(np.maximum(earlier_error, error))
+            errors.append(np.maximum(self._largest_errors[..., last], error))
             computed = next_index
         state = np.concatenate(states, axis=1)
         return RotationSeries(
@@ -408,10 +417,14 @@ class AttitudeIntegrator:
         assert self._solution is not None
         return self._solution[1].spin(times)
 
-    def _errors_until(self, edges: FloatArray) -> FloatArray:
-        """Largest errors of attitude, spin and momentum until each edge, (causes, 3, edges)."""
-        errors = self._state_and_errors(edges)[1]
-        return np.maximum(np.maximum.accumulate(errors, axis=2), self._largest_errors)
+    def _sample_errors(self) -> None:
+        """Set the largest errors until each of several times in each window of the solution."""
+        assert self._solution is not None
+        edges = self._solution[0].edges
+        index = np.arange(_SAMPLES * (len(edges) - 1) + 1) / _SAMPLES
+        self._sample_times = np.interp(index, np.arange(len(edges)), edges)
+        errors = np.maximum.accumulate(self._state_and_errors(self._sample_times)[1], axis=2)
+        self._largest_errors = np.maximum(errors, self._largest_errors[..., -1:])
 
     def _state_and_errors(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
         """State of the body at given times, and errors of attitude, spin and angular momentum.
@@ -430,6 +443,17 @@ class AttitudeIntegrator:
             for column in range(1, states.shape[1])
         ]
         return states[:, 0].copy(), np.stack([method, *input_errors])
+
+
+def _in_sky(state: FloatArray) -> FloatArray:
+    """Convert the angular momentum of states from the body's axes to the sky's."""
+    return np.concatenate([rotations.rotated(state[3:7], state[:3]), state[3:]])
+
+
+def _in_body(state: FloatArray) -> FloatArray:
+    """Convert the angular momentum of states from the sky's axes to the body's."""
+    inverse = rotations.conjugate(state[3:7])
+    return np.concatenate([rotations.rotated(inverse, state[:3]), state[3:]])
 
 
 def shares_of(

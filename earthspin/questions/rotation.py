@@ -470,7 +470,7 @@ def attitudes(
         no_error=rotor.torques.no_error,
         attitude_error={
             **comment,
-            "method": f"Gauss windows of {motion.order} nodes, in two forms",
+            "method": "Gauss windows of two lengths",
             # the number that a whole series takes is not known from one block of it
             **({"evaluations": motion.evaluations} if block is None else {}),
             **({} if start_attitude is not None else first_attitude.start_note(body, rotor.first)),
