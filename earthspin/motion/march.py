@@ -45,6 +45,12 @@ _ROUND_OFF, _NEAR_ROUND_OFF = float(np.finfo(float).eps), 1e-13
 _RUNAWAY = 1e6
 
 
+def subdivided(edges: FloatArray, count: int) -> FloatArray:
+    """Edges of windows, with further ones that divide each window into equal parts."""
+    index = np.arange(count * (len(edges) - 1) + 1) / count
+    return np.interp(index, np.arange(len(edges)), edges)
+
+
 @dataclass(frozen=True)
 class Masses:
     """GM of perturbing masses, with functions for their positions and for further effects.

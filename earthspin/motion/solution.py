@@ -29,7 +29,7 @@ from earthspin.motion.equations import (
     Rigid,
 )
 from earthspin.motion.forces import BodyTorque, Forces, Torque, equatorial_basis
-from earthspin.motion.march import CONVERGED, FINEST, ORDER, Masses, Piece, Solver
+from earthspin.motion.march import CONVERGED, FINEST, ORDER, Masses, Piece, Solver, subdivided
 from earthspin.motion.together import Together
 from earthspin.numerics import polynomials, rotations
 from earthspin.numerics.arrays import FloatArray
@@ -324,12 +324,8 @@ class AttitudeIntegrator:
         self._coarse.begin_with(start.spin)
         speed = float(np.max(np.sqrt(np.sum(start.spin**2, axis=0))))
         self._rounding = _EPS * speed * self._end
-        self._solutions = self._march(
-            np.concatenate(
-                [rotations.rotated(start.attitude, start.momentum), start.attitude, start.core]
-            ),
-            np.concatenate([start.momentum, start.attitude, start.core])[:, :1],
-        )
+        momentum = rotations.rotated(start.attitude, start.momentum)
+        self._solutions = self._march(np.concatenate([momentum, start.attitude, start.core]))
         self._solution: tuple[Piece, Piece] | None = None
         self._last_time = 0.0
         self._largest_errors = np.zeros((body.count, len(KINDS), 1))
@@ -340,33 +336,37 @@ class AttitudeIntegrator:
         in_succession = ORDER * (self._fine.evaluations + self._coarse.evaluations)
         return in_succession + self._together.evaluations
 
-    def _march(self, fine: FloatArray, coarse: FloatArray) -> Iterator[tuple[Piece, Piece]]:
+    def _march(self, halves: FloatArray) -> Iterator[tuple[Piece, Piece]]:
         """Yield two solutions of each batch of windows: with full and with half windows."""
-        time, batches, wait = 0.0, 0, 0
+        full, time, wait, batches = halves[:, :1], 0.0, 0, 0
         while time < self._end:
-            pair = None
             if batches == 0:
-                pair = self._together.solve(time, _in_sky(coarse), fine)
-                wait = 0 if pair else min(2 * wait + 1, _LONGEST_WAIT)
-                batches = wait
+                pair = self._together.solve(time, full, halves)
+                batches = wait = 0 if pair else min(2 * wait + 1, _LONGEST_WAIT)
+            else:
+                pair = self._in_succession(time, full, halves)
+                batches -= 1
             if pair is not None:
                 yield pair
-                ends = pair[0].end, pair[1].end
-                coarse, fine = _in_body(ends[0]), ends[1]
-                time = float(pair[0].edges[-1])
-                continue
-            full = self._coarse.integrate(self._coarse.next_edges(time, self._end), coarse)
-            if len(full.edges) < 2:
-                continue
-            middles = (full.edges[1:] + full.edges[:-1]) / 2
-            halves = np.sort(np.concatenate([full.edges, middles]))
-            halved = self._fine.integrate(halves, fine, full)
-            if halved.edges[-1] < full.edges[-1]:
-                self._coarse.window /= 2
-                continue
-            coarse, fine, time = full.end, halved.end, float(full.edges[-1])
-            batches -= 1
-            yield full, halved
+                full, halves, time = pair[0].end, pair[1].end, float(pair[0].edges[-1])
+                if not pair[0].in_space:
+                    momentum = rotations.rotated(full[3:7], full[:3])
+                    full = np.concatenate([momentum, full[3:]])
+
+    def _in_succession(
+        self, time: float, full: FloatArray, halves: FloatArray
+    ) -> tuple[Piece, Piece] | None:
+        """Solve windows in succession; return None if they must be shorter."""
+        momentum = rotations.rotated(rotations.conjugate(full[3:7]), full[:3])
+        start = np.concatenate([momentum, full[3:]])
+        solution = self._coarse.integrate(self._coarse.next_edges(time, self._end), start)
+        if len(solution.edges) < 2:
+            return None
+        halved = self._fine.integrate(subdivided(solution.edges, 2), halves, solution)
+        if halved.edges[-1] < solution.edges[-1]:
+            self._coarse.window /= 2
+            return None
+        return solution, halved
 
     def at(self, times: FloatArray, hook: Callable[[float], None] | None = None) -> RotationSeries:
         """Angular momentum, attitude and angular velocity at given times, with errors.
@@ -420,9 +420,7 @@ class AttitudeIntegrator:
     def _sample_errors(self) -> None:
         """Set the largest errors until each of several times in each window of the solution."""
         assert self._solution is not None
-        edges = self._solution[0].edges
-        index = np.arange(_SAMPLES * (len(edges) - 1) + 1) / _SAMPLES
-        self._sample_times = np.interp(index, np.arange(len(edges)), edges)
+        self._sample_times = subdivided(self._solution[0].edges, _SAMPLES)
         errors = np.maximum.accumulate(self._state_and_errors(self._sample_times)[1], axis=2)
         self._largest_errors = np.maximum(errors, self._largest_errors[..., -1:])
 
@@ -443,17 +441,6 @@ class AttitudeIntegrator:
             for column in range(1, states.shape[1])
         ]
         return states[:, 0].copy(), np.stack([method, *input_errors])
-
-
-def _in_sky(state: FloatArray) -> FloatArray:
-    """Convert the angular momentum of states from the body's axes to the sky's."""
-    return np.concatenate([rotations.rotated(state[3:7], state[:3]), state[3:]])
-
-
-def _in_body(state: FloatArray) -> FloatArray:
-    """Convert the angular momentum of states from the sky's axes to the body's."""
-    inverse = rotations.conjugate(state[3:7])
-    return np.concatenate([rotations.rotated(inverse, state[:3]), state[3:]])
 
 
 def shares_of(

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from earthspin.motion.equations import Rigid
-from earthspin.motion.march import Masses, Piece
+from earthspin.motion.march import Masses, Piece, subdivided
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows, integrated, rule
@@ -147,8 +147,7 @@ class Together:
         tails = full.tails(full.rates_at_nodes) / self._tolerance
         if np.max(tails) > 1.0:
             return None, tails
-        middles = (solution.edges[1:] + solution.edges[:-1]) / 2
-        edges = np.sort(np.concatenate([solution.edges, middles]))
+        edges = subdivided(solution.edges, 2)
         halved = _Chunk(self._body, self._masses, edges, solution.along_sky(edges[:-1]))
         near = solution.along_sky(halved.windows.times.ravel())
         guess = halved.unknowns(near, halved.reference).reshape(-1, 1, *halved.windows.times.shape)
