@@ -58,8 +58,8 @@ if TYPE_CHECKING:
 _LENGTH = 1e-6
 #: Largest relative difference of the periods of spin and orbit in synchronous rotation.
 _SYNCHRONOUS = 1e-3
-#: Time to follow a body through one turn, s (measured: 2.6e-3 to 5e-3), and most turns that are
-#: followed at once: about an hour.
+#: Time to follow a body through one turn, s (measured: 2.6e-3 to 5e-3 if it tumbles, 3e-4 if it
+#: spins near a principal axis), and most turns that are followed at once: at most about an hour.
 SECONDS_PER_TURN, MOST_TURNS = 4e-3, 1e6
 
 
@@ -296,7 +296,7 @@ class Rotor:
         turns, days = self.turns(end - begin), (end - begin) / DAY
         if turns > MOST_TURNS:
             hours, most = turns * SECONDS_PER_TURN / 3600, days * MOST_TURNS / turns
-            problem = f"the body turns {turns:.3g} times, which takes about {hours:.2g} h to follow"
+            problem = f"the body turns {turns:.3g} times, which takes up to {hours:.2g} h to follow"
             raise SceneError("span", f"{days:.6g} d", f"{problem}; give at most {most:.3g} d")
 
     def since(self, days: float | FloatArray) -> FloatArray:
