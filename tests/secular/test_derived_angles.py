@@ -1,5 +1,6 @@
 """How far causes move what is read off."""
 
+import tracemalloc
 from collections.abc import Callable
 
 import numpy as np
@@ -69,3 +70,17 @@ def test_angles_do_not_depend_on_the_blocks_in_which_they_are_derived(
         shares = (case.changes("pole") for case in (whole, other))
         for share, same in zip(*(case.values() for case in shares), strict=True):
             assert np.array_equal(share, same)
+
+
+def test_memory_does_not_grow_with_the_causes() -> None:
+    """Measured: 1.6 times the 37 numbers of an epoch in an answer; 6.2 times if all are held."""
+    times = np.linspace(-900.0, 0.0, 40_000) * KYR
+    uncertainty = Uncertainty(1e-6, EARTHS.error, earth=True, start=(1e-8,))
+    solution = solved(AxisInputs(earths(), EARTHS, POLE), (times[0], times[-1]), uncertainty)
+    tracemalloc.start()
+    try:
+        found = derived_angles.derive_all(solution, times, fixed_ecliptic())
+        assert np.all(found.half_width("obliquity") > 0)
+        assert tracemalloc.get_traced_memory()[1] < 3 * 37 * times.nbytes
+    finally:
+        tracemalloc.stop()
