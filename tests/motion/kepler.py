@@ -70,7 +70,7 @@ def followed(
     body: Rigid, masses: Masses, omega: tuple[float, ...], end: float, **settings: float
 ) -> AttitudeIntegrator:
     """A motion from time 0."""
-    return AttitudeIntegrator(body, masses, start(body, omega), end, **settings)  # type: ignore[arg-type]
+    return AttitudeIntegrator(body, masses, start(body, omega), end, **settings)
 
 
 def angle(p: FloatArray, q: FloatArray) -> FloatArray:
