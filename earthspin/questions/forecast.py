@@ -382,22 +382,26 @@ def _column(table: list[dict[str, Any]], name: str) -> FloatArray:
     return np.array([row[name] for row in table], dtype=float)
 
 
-class Ut1Skill(Variables, along=("ut1_case",), no_error="the size of errors themselves"):
+class Ut1Skill(Variables, along=("ut1_case",), no_error="the size of errors of UT1 and of the day"):
     """Measured errors of past forecasts of UT1, by number of days after the origin."""
 
     ut1_mean_absolute_error = number("ms", "mean absolute error of UT1")
     ut1_root_mean_square = number("ms", "root mean square error of UT1")
-    ut1_coverage = number("1", "share of 95 % intervals that contain the observed UT1")
+    ut1_coverage = number(
+        "1", "share of 95 % intervals that contain the observed UT1", no_error=_COUNTED
+    )
     ut1_other_mean_absolute_error = number(
         "ms", "mean absolute error of UT1 of the other forecast, as in other_mean_absolute_error"
     )
     length_of_day_mean_absolute_error = number("ms", "mean absolute error of the length of day")
     length_of_day_coverage = number(
-        "1", "share of 95 % intervals that contain the observed length of day"
+        "1",
+        "share of 95 % intervals that contain the observed length of day",
+        no_error=_COUNTED,
     )
     ut1_skill_set = words("table and origins")
-    ut1_horizon = number("d", "days after the origin")
-    ut1_origins = number("1", "number of origins")
+    ut1_horizon = number("d", "days after the origin", no_error="it is chosen")
+    ut1_origins = number("1", "number of origins", no_error=_COUNTED)
     ut1_case = labels()
 
 

@@ -59,6 +59,9 @@ ASKED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     ),
     "iau": ({}, H),
     "nutation": ({}, H),
+    "observed-day": (
+        {"span": ["2020-01-01", "2020-01-11"]}, {"tides": {"choice": ["left in", "taken out"]}},
+    ),
 }  # fmt: skip
 #: Questions that follow the pole over centuries, some seconds a member.
 SLOW = ("iau", "nutation")

@@ -161,7 +161,7 @@ def test_the_error_of_a_direction(newest: xr.Dataset) -> None:
     tree = earthspin.run_tree(earthspin.load_scene("forecast", {"days": 60}), ["universal_time"])
     for name, words in {"direction": "direction with UT1", "ground": "at the equator"}.items():
         (shown,) = re.findall(rf"{words}: largest 95 % error ([\d.]+) m", closing_line(tree))
-        assert float(shown) == pytest.approx(float(newest[f"{name}_error"][-1]), rel=0.05)
+        assert float(shown) == pytest.approx(float(newest[f"{name}_error"][-1]), rel=0.05, abs=0)
 
 
 @pytest.mark.parametrize(("days", "origin"), [(500, None), (60, ORIGIN)])
