@@ -54,7 +54,7 @@ class LengthOfDay(
         if self.body.labelled:
             raise ApartError("the length of day is computed for one body at a time")
         for perturber in self.perturbers:
-            if perturber.name not in theory.MEAN_FACTORS:
+            if perturber.known_as not in theory.MEAN_FACTORS:
                 problem = "the mean tide is known of sun and moon; leave it out"
                 raise self.error("perturbers", perturber.name, problem)
 
@@ -73,18 +73,18 @@ def tides(epochs: Epochs, sky: Sky, body: Body, perturbers: tuple[Body, ...]) ->
     days = nodes(*epochs.span())
     places = sky.radec(body, days)
     changes = np.array([change_by(p, body, *places[p.name][1:]) for p in perturbers])
-    names = [*(p.name for p in perturbers), "total"]
+    names = [*(p.known_as for p in perturbers), "total"]
     return ZonalTides.through(names, days, np.vstack([changes, changes.sum(axis=0)]))
 
 
 @part
-def tidal_day(epochs: Epochs, tides: ZonalTides) -> TidalDay:
+def tidal_day(epochs: Epochs, tides: ZonalTides, perturbers: tuple[Body, ...]) -> TidalDay:
     """Compute length of day and UT1 by the zonal tides at every time."""
     days = days_of(epochs)
     source = {"references": KAPPA.source, "response": f"{KAPPA.value} = k M a2/C"}
     return TidalDay(
         time=datetime64(days),
-        perturber=[*tides.names],
+        perturber=[*(p.name for p in perturbers), "total"],
         length_of_day=tides.length_of_day(days),
         ut1_tides=tides.ut1(days),
     ).with_attributes(length_of_day=source, ut1_tides=source)

@@ -39,7 +39,7 @@ def change_by(
 ) -> FloatArray:
     """Change of C/(M a2) of a body, for a Love number of 1, by the tide of one perturber."""
     ratio, radius = float(perturber.gm_on(body) / body.gm), float(body.needed("radius"))
-    mean = MEAN_FACTORS[perturber.name] * (radius / float(EARTH.needed("radius"))) ** 3
+    mean = MEAN_FACTORS[perturber.known_as] * (radius / float(EARTH.needed("radius"))) ** 3
     return change_of_moment(ratio, radius, declination, distance, mean)
 
 
