@@ -7,7 +7,6 @@ tables whose columns the user names. UT1 is returned relative to TAI, which has 
 from __future__ import annotations
 
 import re
-import warnings
 from dataclasses import dataclass, fields, replace
 from functools import cache, lru_cache, partial
 from pathlib import Path
@@ -105,20 +104,11 @@ def leap_seconds() -> tuple[FloatArray, str]:
 def tai_minus_utc(mjd: FloatArray) -> FloatArray:
     """TAI - UTC at modified Julian dates (UTC) from 1960 on, s, with all known leap seconds."""
     (days, seconds), _ = leap_seconds()
-    if np.all(mjd >= days[0]):
-        return np.asarray(seconds[np.searchsorted(days, mjd, side="right") - 1])
-    _update_leap_seconds()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", erfa.ErfaWarning)  # later leap seconds are not known
-        return np.asarray(erfa.dat(*erfa.jd2cal(_MJD_OF_JD0, mjd)))
-
-
-@cache
-def _update_leap_seconds() -> None:
-    """Add to ERFA the leap seconds that it lacks, from the list that astropy includes."""
-    from astropy.utils import iers
-
-    erfa.leap_seconds.update(iers.LeapSeconds.from_iers_leap_seconds())
+    mjd = np.asarray(mjd, dtype=float)
+    late = seconds[np.searchsorted(days, mjd, side="right") - 1]
+    if np.any(early := mjd < days[0]):  # UTC was steered by rates, which ERFA has
+        late[early] = erfa.dat(*erfa.jd2cal(_MJD_OF_JD0, mjd[early]))
+    return np.asarray(late)
 
 
 def read_universal_time(
