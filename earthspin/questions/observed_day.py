@@ -87,7 +87,7 @@ class ObservedUniversalTime(tables.Daily):
     ut1_tides = measured("ms", "change of UT1 by zonal tides since the first date")
 
 
-@part(loads=("astropy.utils.iers",))
+@part
 def day_table(file: str, columns: str | None, span: Span | None) -> UniversalTime:
     """Read the observed UT1 and length of day of a table, within the requested span."""
     table = read_universal_time(file, columns, tables.mjd_span(span))
